@@ -6,8 +6,12 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "pipelines/accuracy/models_left_out.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -16,6 +20,12 @@ namespace {
 bool tells_change(const ErrorRow& row, std::string_view source) {
   return row.source == source &&
          (row.goal == peak_amplitude_goal || row.goal == peak_frequency_goal);
+}
+
+/// Of a curve that has no peak to compare.
+bool tells_without_peak(const ErrorRow& row, std::string_view source) {
+  return row.source == source && (row.goal == resonance_goal || row.goal == end_amplitude_goal ||
+                                  row.goal == peak_outside_goal || row.goal == one_frequency_goal);
 }
 
 std::optional<double> largest_change(const std::vector<ErrorRow>& rows, const std::string& source) {
@@ -35,6 +45,97 @@ std::string objection_of(double bound) {
                      100.0 * bound);
 }
 
+/// Of a source and a goal, over all curves.
+const ErrorRow* largest_row(const std::vector<ErrorRow>& rows, std::string_view source,
+                            std::string_view goal) {
+  const ErrorRow* largest = nullptr;
+  for (const ErrorRow& row : rows) {
+    if (row.source != source || row.goal != goal) continue;
+    if (largest == nullptr || std::abs(row.effect) > std::abs(largest->effect)) largest = &row;
+  }
+  return largest;
+}
+
+constexpr double percent = 100.0;
+
+/// What having a source changes: the peaks that can be compared, and in words the curves that have
+/// none.
+struct Told {
+  std::optional<double> bound{};  ///< of the peaks that can be compared
+  std::vector<std::string> words{};
+  double beside = 0.0;  ///< largest change that the words tell
+  std::string most{};   ///< the words that tell it
+  [[nodiscard]] bool anything() const { return bound || !words.empty(); }
+};
+
+std::string change_text(double change) {
+  return std::isinf(change) ? "is not found with it"
+                            : fmt::format("changes by {:+.2g} % with it", percent * change);
+}
+
+std::string words_of(const ErrorRow& row, std::string_view goal) {
+  const std::string change = change_text(row.effect);
+  if (goal == resonance_goal) {
+    return fmt::format(
+        "curve {} has no peak within its range to compare: the resonance nearest to the range {}",
+        row.curve, change);
+  }
+  if (goal == end_amplitude_goal) {
+    return fmt::format("the amplitude at the end of the range of {} {}, which says little",
+                       row.curve, change);
+  }
+  if (goal == peak_outside_goal) {
+    return fmt::format(
+        "the frequency of the peak of {} {} and lies outside the range then, its height is not "
+        "compared",
+        row.curve, change);
+  }
+  return fmt::format(
+      "curve {}, of which the frequency of the largest motion alone is integrated again: its "
+      "amplitude there {}",
+      row.curve, change);
+}
+
+Told told_of(const std::vector<ErrorRow>& rows, const std::string& source) {
+  Told told{largest_change(rows, source)};
+  for (const char* goal :
+       {resonance_goal, end_amplitude_goal, peak_outside_goal, one_frequency_goal}) {
+    const ErrorRow* row = largest_row(rows, source, goal);
+    if (row == nullptr) continue;
+    told.words.push_back(words_of(*row, goal));
+    if (std::abs(row->effect) < told.beside) continue;
+    told.beside = std::abs(row->effect);
+    told.most = told.words.back();
+  }
+  if (told.words.empty() || !told.bound) return told;
+  told.words.push_back(
+      fmt::format("peaks that can be compared change by {:.2g} % at most", percent * *told.bound));
+  return told;
+}
+
+bool is_one_of(std::string_view source, std::string_view effect) {
+  for (std::size_t at = 0; at <= source.size();) {
+    const std::size_t end = std::min(source.find(together, at), source.size());
+    if (source.substr(at, end - at) == effect) return true;
+    at = end + together.size();
+  }
+  return false;
+}
+
+/// The source of all effects together, of which this is one; empty: there is none.
+std::string joint_source(const std::vector<ErrorRow>& rows, std::string_view effect) {
+  const auto row = std::ranges::find_if(rows, [&](const ErrorRow& one) {
+    return one.source.find(together) != std::string::npos && is_one_of(one.source, effect);
+  });
+  return row == rows.end() ? "" : row->source;
+}
+
+std::string joint_text(const Told& told) {
+  if (!told.words.empty()) return fmt::format("{}", fmt::join(told.words, ", "));
+  if (std::isinf(*told.bound)) return "the highest peak is not found from that without";
+  return fmt::format("the highest peaks change by up to {:.2g} %", percent * *told.bound);
+}
+
 /// What a model can be solved with in place of without, settings of the scene alone apart.
 constexpr std::array<std::string_view, 2> switchable{"normal_motion", "second_direction"};
 
@@ -51,7 +152,8 @@ std::optional<double> missed_change(const std::vector<ErrorRow>& rows, std::stri
                                     double tolerance) {
   std::optional<double> largest;
   for (const ErrorRow& row : rows) {
-    if (!tells_change(row, source) || !(std::abs(row.effect) > tolerance)) continue;
+    const bool told = tells_change(row, source) || tells_without_peak(row, source);
+    if (!told || !(std::abs(row.effect) > tolerance)) continue;
     largest = std::max(change_without(row.effect), largest.value_or(0.0));
   }
   return largest;
@@ -76,10 +178,30 @@ const ErrorRow* largest_indicator(const std::vector<ErrorRow>& rows, const std::
   return largest;
 }
 
+/// In words with the first of them.
+void tell_together(const std::vector<ErrorRow>& rows, double tolerance, EffectRecord& effect) {
+  const std::string source = joint_source(rows, effect.name);
+  if (source.empty()) return;
+  const Told told = told_of(rows, source);
+  if (!told.anything()) return;
+  if (told.words.empty()) effect.bound_together = told.bound;
+  if (!source.starts_with(effect.name)) return;
+  const std::string text = fmt::format("with {} put back together {}", source, joint_text(told));
+  effect.reason += "; " + text;
+  const bool matters = told.bound.value_or(0.0) > tolerance || told.beside > tolerance;
+  if (effect.objection.empty() && matters) effect.objection = "left out, and " + text;
+}
+
+void tell_none(const std::vector<NoBound>& none, EffectRecord& effect) {
+  const auto why = std::ranges::find(none, effect.name, &NoBound::effect);
+  if (why == none.end()) return;
+  effect.reason += fmt::format("; no bound was made of what it would change: {}", why->why);
+}
+
 }  // namespace
 
 void tell_bounds(const std::vector<ErrorRow>& rows, double tolerance,
-                 std::vector<EffectRecord>& effects) {
+                 std::vector<EffectRecord>& effects, const std::vector<NoBound>& none) {
   for (EffectRecord& effect : effects) {
     if (effect.simulated == Simulated::yes) continue;
     if (const ErrorRow* most = largest_indicator(rows, effect.name)) {
@@ -87,10 +209,16 @@ void tell_bounds(const std::vector<ErrorRow>& rows, double tolerance,
                                    most->effect, most->curve);
     }
     const bool harmonics = effect.name == "higher_harmonics";
-    const auto change = largest_change(rows, harmonics ? "harmonics" : effect.name);
-    if (!change) continue;
-    effect.bound = change;
-    effect.objection = *change > tolerance ? objection_of(*change) : "";
+    const std::string source = harmonics ? "harmonics" : effect.name;
+    const Told told = told_of(rows, source);
+    if (told.anything()) effect.bound = told.words.empty() ? told.bound : std::nullopt;
+    for (const std::string& words : told.words) effect.reason += "; " + words;
+    if (told.bound) effect.objection = *told.bound > tolerance ? objection_of(*told.bound) : "";
+    if (told.beside > tolerance && told.beside > told.bound.value_or(0.0)) {
+      effect.objection = "left out, and " + told.most;
+    }
+    tell_together(rows, tolerance, effect);
+    if (!told.anything()) tell_none(none, effect);
   }
 }
 

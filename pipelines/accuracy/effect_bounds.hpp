@@ -12,10 +12,14 @@ namespace microslip::pipelines {
 
 /// EffectRecord::bound of effects that are left out: the largest change of a highest peak,
 /// amplitude or frequency, that having them makes. Beyond the tolerance that is an objection;
-/// within it, it answers the one of the indicator. Nothing is told where no row does.
+/// within it, it answers the one of the indicator. Curves without a peak within their range are
+/// told in words, with the change of the resonance. What several effects change together is
+/// EffectRecord::bound_together of each. Where no row tells anything, it is said that there is no
+/// bound, and why.
 /// @param rows  of error budgets, and of rows_left_out().
+/// @param none  of effects that are owed a bound.
 void tell_bounds(const std::vector<ErrorRow>& rows, double tolerance,
-                 std::vector<EffectRecord>& effects);
+                 std::vector<EffectRecord>& effects, const std::vector<NoBound>& none = {});
 
 /// An effect that `auto` had left out, and that matters.
 struct MissedEffect {

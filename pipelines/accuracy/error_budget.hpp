@@ -17,6 +17,7 @@ struct CurveBudget {
   std::vector<ErrorRow> rows;
   std::vector<std::string> unknown;  ///< sources that could not be told: the bar leaves them out
   std::vector<ErrorRow> left_out{};  ///< effects of physics (left_out.hpp): no part of the bar
+  std::vector<NoBound> no_bound{};   ///< of those that have no row there
   double dissipated_energy = 0.0;    ///< by friction in a period at the highest peak [J]
   /// Energy that a period takes there over what friction takes of it: a relative change of the
   /// amplitude changes the dissipated energy by no more than so much of it, as work of the

@@ -1,22 +1,17 @@
 #include "pipelines/accuracy/left_out.hpp"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
-#include <exception>
 #include <limits>
+#include <numbers>
+#include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
-
-#include <fmt/format.h>
+#include <variant>
 
 #include "contact/contact_force.hpp"
 #include "contact/dense.hpp"
-#include "pipelines/description/effects_left_out.hpp"
-#include "pipelines/effects/effect_choice.hpp"
-#include "pipelines/model/contact_coordinates.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/scene_error.hpp"
@@ -25,91 +20,16 @@
 namespace microslip::pipelines {
 namespace {
 
-bool all_patches(const ReducedModel& model, int axis, double least) {
-  return std::ranges::all_of(model.patches, [&](const contact::Patch& patch) {
-    return patch.cells.stiffness.col(axis).minCoeff() >= least;
-  });
-}
+constexpr double not_there = std::numeric_limits<double>::infinity();
 
-/// Effects that a switch of the contact has.
-void add_switched(const ReducedModel& model, const SceneDescription& scene, RicherModels& others) {
-  const auto add = [&](const char* name, bool ContactEffects::*effect) {
-    RicherModel& other = others.models.emplace_back(RicherModel{name, model});
-    other.model.effects.*effect = true;
-    other.model.coordinates = contact_coordinates(other.model, scene);
-  };
-  const auto moves = [](const contact::Patch& patch) {
-    return !patch.cells.stiffness.col(1).isZero(0.0) && !patch.cells.shapes.v.isZero(0.0);
-  };
-  if (!model.effects.normal_motion && std::ranges::any_of(model.patches, moves)) {
-    add("normal_motion", &ContactEffects::normal_motion);
-  }
-  const bool forbidden = setting_of(scene, "second_direction") == "off" &&
-                         model.effects.motion_ratio > least_motion_along_r(scene);
-  if (forbidden && !model.effects.second_direction && all_patches(model, 2, 0.0)) {
-    add("second_direction", &ContactEffects::second_direction);
-  }
-}
-
-/// Coordinates of one basis from those of another on the same mesh, by least squares.
-Eigen::MatrixXd between(const fem::ModalBasis& from, const fem::ModalBasis& to) {
-  return contact::solved(to.shapes.transpose() * to.shapes, to.shapes.transpose() * from.shapes);
-}
-
-/// The first modes are the same, those that follow stand still.
-Eigen::MatrixXd with_more(const ReducedModel& from, const ReducedModel& to) {
-  return Eigen::MatrixXd::Identity(to.frequency.size(), from.frequency.size());
-}
-
-/// With an effect that is taken out of the description of a scene.
-RicherModel with_described(const char* name, const ReducedModel& model,
-                           const SceneDescription& scene, const SolvedStructure* structure,
-                           bool changes_modes) {
-  const SceneDescription with = with_effect(scene, name);
-  std::vector<std::string> warnings;  // those of the scene itself are told already
-  RicherModel other{name, {}};
-  if (structure != nullptr && changes_modes) {
-    const SolvedStructure solved{structure->mesh, solve_structure(structure->mesh, with)};
-    other.model = model_of(with, &solved, warnings);
-    other.embedding = between(structure->modes.basis, solved.modes.basis);
-  } else {
-    other.model = model_of(with, structure, warnings);
-    if (changes_modes) other.embedding = with_more(model, other.model);
-  }
-  other.model.effects = model.effects;
-  if (is_rough(other.model)) other.model.effects.normal_motion = true;
-  other.model.coordinates = contact_coordinates(other.model, with);
-  return other;
-}
-
-struct Described {
-  const char* name;
-  bool changes_modes;
+/// Of one goal, by having an effect; infinite: what it is of is lost.
+struct Change {
+  const char* goal;
+  double effect;
 };
+using Changes = std::vector<Change>;
 
-constexpr std::array described{Described{"roughness", false}, Described{"rate_dependence", false},
-                               Described{"moments", false},   Described{"static_preload", false},
-                               Described{"residual", true},   Described{"centrifugal", true}};
-
-void add_described(const ReducedModel& model, const SceneDescription& scene,
-                   const SolvedStructure* structure, RicherModels& others) {
-  for (const Described& effect : described) {
-    if (left_out(scene, effect.name) == nullptr || cut_short()) continue;
-    const bool contradicts =
-        std::string_view(effect.name) == "roughness" && setting_of(scene, "normal_motion") == "off";
-    if (contradicts) continue;
-    try {
-      others.models.push_back(
-          with_described(effect.name, model, scene, structure, effect.changes_modes));
-    } catch (const InterruptedError&) {
-      throw;
-    } catch (const std::exception& error) {  // a check that fails does not cost the run
-      others.unknown.emplace_back(effect.name);
-      others.note =
-          fmt::format("what leaving out {} changes is not known: {}", effect.name, error.what());
-    }
-  }
-}
+const Changes not_found{{peak_amplitude_goal, not_there}, {peak_frequency_goal, not_there}};
 
 /// The peaks of a curve, each as a curve of its own, the highest first; without one the curve,
 /// whose end is the highest.
@@ -125,40 +45,124 @@ std::vector<solver::ResponseCurve> single_peaks(const solver::ResponseCurve& cur
   return peaks;
 }
 
-/// By having an effect, the largest of all peaks: of amplitude over the highest one; of frequency,
-/// of a lower peak by its share of that amplitude.
-struct Changes {
-  double amplitude = 0.0, frequency = 0.0;
-  bool found = true;  ///< the highest peak with the effect
-};
-
-constexpr Changes not_found{std::numeric_limits<double>::infinity(),
-                            std::numeric_limits<double>::infinity(), false};
-
 double larger(double a, double b) { return std::abs(b) > std::abs(a) ? b : a; }
 
-Changes changes_with(const solver::Scene& own, const solver::OtherModel& with,
-                     const solver::ContinuationOptions& options, const solver::ResponseCurve& curve,
-                     double highest) {
-  Changes changes;
-  bool is_highest = true;
-  for (const solver::ResponseCurve& peak : single_peaks(curve)) {
+/// [rad/s], of a curve.
+struct Range {
+  double low, high;
+  [[nodiscard]] bool is_point() const { return low == high; }
+  [[nodiscard]] bool has(double place) const { return place > low && place < high; }
+};
+
+Range range_of(const solver::ContinuationOptions& options) {
+  const auto [low, high] = std::minmax(options.frequency_begin, options.frequency_end);
+  return {low, high};
+}
+
+/// Of a linear limit [rad/s], ascending.
+Eigen::VectorXd resonances(const solver::Scene& scene, LimitName limit) {
+  Eigen::MatrixXd total = scene.natural_frequency.array().square().matrix().asDiagonal();
+  if (limit == LimitName::stuck && scene.contact) total += scene.contact->stuck_stiffness();
+  const auto squares = contact::symmetric_eigenvalues(total);
+  return squares.value_or(Eigen::VectorXd()).cwiseMax(0.0).cwiseSqrt();
+}
+
+/// Of the resonance nearest to the middle of a range, relative.
+double resonance_change(const solver::Scene& own, const solver::Scene& with, const Range& range,
+                        LimitName limit) {
+  const Eigen::VectorXd without = resonances(own, limit);
+  const Eigen::VectorXd there = resonances(with, limit);
+  if (without.size() == 0) return 0.0;
+  Eigen::Index nearest = 0;
+  (without.array() - 0.5 * (range.low + range.high)).abs().minCoeff(&nearest);
+  if (nearest >= there.size() || !(without[nearest] > 0.0)) return 0.0;
+  return there[nearest] / without[nearest] - 1.0;
+}
+
+/// Of both limits the one that moves more.
+double resonance_change(const solver::Scene& own, const solver::Scene& with, const Range& range) {
+  return larger(resonance_change(own, with, range, LimitName::free),
+                resonance_change(own, with, range, LimitName::stuck));
+}
+
+/// Of the resonance of either limit that is nearest to a peak, the other model's over the own.
+double factor_of_nearest(const solver::Scene& own, const solver::Scene& with, double peak) {
+  double distance = not_there;
+  double factor = 1.0;
+  for (const LimitName limit : {LimitName::free, LimitName::stuck}) {
+    const Eigen::VectorXd without = resonances(own, limit);
+    const Eigen::VectorXd there = resonances(with, limit);
+    for (Eigen::Index i = 0; i < std::min(without.size(), there.size()); ++i) {
+      if (std::abs(without[i] - peak) >= distance) continue;
+      distance = std::abs(without[i] - peak);
+      factor = there[i] / without[i];
+    }
+  }
+  return factor;
+}
+
+/// The peak is looked for where it is, and where its resonance goes.
+std::optional<solver::PeakOfBoth> found_elsewhere(const solver::Scene& own,
+                                                  const solver::ContinuationOptions& options,
+                                                  const solver::ResponseCurve& curve,
+                                                  const solver::OtherModel& with) {
+  if (auto both = solver::peak_elsewhere(own, options, curve, with)) return both;
+  const double factor = factor_of_nearest(own, with.scene, highest_peak(curve)->frequency);
+  return solver::peak_elsewhere(own, options, curve, {with.scene, with.embedding, factor});
+}
+
+/// One curve of a model, and what is to be had beside it.
+struct Comparison {
+  const solver::Scene& own;
+  const solver::OtherModel& with;
+  const solver::ContinuationOptions& options;
+  const solver::ResponseCurve& curve;
+  double highest;  ///< amplitude [m]
+  bool all_peaks;  ///< else the highest
+};
+
+/// Of a resonance and of the amplitude at an end of the range; of nothing, nothing has changed.
+Changes at_end(double resonance, double amplitude_there) {
+  if (resonance == 0.0 && amplitude_there == 0.0) return {{peak_amplitude_goal, 0.0}};
+  return {{resonance_goal, resonance}, {end_amplitude_goal, amplitude_there}};
+}
+
+/// Its highest point is an end: amplitudes there say little of a resonance that lies elsewhere.
+Changes without_peak(const Comparison& of, const Range& range) {
+  const auto both = solver::peak_elsewhere(of.own, of.options, of.curve, of.with);
+  const double change = both ? both->other_amplitude / both->amplitude - 1.0 : not_there;
+  return at_end(resonance_change(of.own, of.with.scene, range), change);
+}
+
+Changes changes_of(const Comparison& of) {
+  const Range range = range_of(of.options);
+  const std::vector<solver::ResponseCurve> peaks = single_peaks(of.curve);
+  const bool has_peak = peaks.front().points.front().mark == solver::PointMark::peak ||
+                        range.has(highest_peak(of.curve)->frequency);
+  if (!has_peak && !range.is_point()) return without_peak(of, range);
+  double height = 0.0;
+  double place = 0.0;
+  for (std::size_t i = 0; i < (of.all_peaks ? peaks.size() : 1); ++i) {
     // Beside the highest the whole curve is looked at: it may be another place that is highest with
     // the effect.
-    const auto both = solver::peak_elsewhere(own, options, is_highest ? curve : peak, with);
+    const auto both = found_elsewhere(of.own, of.options, i == 0 ? of.curve : peaks[i], of.with);
     if (both) {
-      changes.amplitude =
-          larger(changes.amplitude, (both->other_amplitude - both->amplitude) / highest);
       const double shift = both->other_frequency / both->frequency - 1.0;
-      changes.frequency = larger(changes.frequency, shift * both->amplitude / highest);
-    } else if (is_highest) {
-      return not_found;
+      if (i == 0 && !range.is_point() && !range.has(both->other_frequency)) {
+        return {{peak_outside_goal, shift}};
+      }
+      height = larger(height, (both->other_amplitude - both->amplitude) / of.highest);
+      place = larger(place, shift * both->amplitude / of.highest);
+    } else if (i == 0) {
+      const double shift = resonance_change(of.own, of.with.scene, range);
+      const bool leaves =
+          !range.is_point() && !range.has((1.0 + shift) * highest_peak(of.curve)->frequency);
+      return leaves ? Changes{{peak_outside_goal, shift}} : not_found;
     } else {  // a lower one that is lost changes by all it has
-      changes.amplitude = larger(changes.amplitude, -peak.points.front().amplitude / highest);
+      height = larger(height, -peaks[i].points.front().amplitude / of.highest);
     }
-    is_highest = false;
   }
-  return changes;
+  return {{peak_amplitude_goal, height}, {peak_frequency_goal, place}};
 }
 
 /// As exact as the forces of both allow.
@@ -176,17 +180,93 @@ double load_with(const ReducedModel& richer, const ReducedModel& model, double l
 }
 
 /// @param model  as the curve was solved.
-Changes changes_with(const SceneDescription& scene, const ReducedModel& model,
-                     const RicherModel& other, const CurveResult& result, double load) {
+Changes changes_balanced(const SceneDescription& scene, const ReducedModel& model,
+                         const RicherModel& other, const CurveResult& result, double load) {
   const solver::ResponsePoint& peak = *highest_peak(result.curve);
   ReducedModel richer = other.model;
   richer.effects.located = richer.effects.located || model.effects.located;
   const double factor = frequency_factor(model, richer, peak.frequency);
   const solver::Scene own = solver_scene(model, load);
+  const solver::Scene with = solver_scene(richer, load_with(richer, model, load));
+  const bool all_peaks = other.source.find(together) == std::string::npos;
+  return changes_of({own,
+                     {with, other.embedding, factor},
+                     options_of_both(scene, model, richer),
+                     result.curve,
+                     peak.amplitude,
+                     all_peaks});
+}
+
+/// What is integrated again: all frequencies where that is bearable, else the one where the motion
+/// is largest.
+SceneDescription to_integrate(const SceneDescription& scene, const CurveResult& result) {
+  constexpr double bearable = 60.0;  // [s], of an effect and curve
+  SceneDescription again = scene;
+  if (result.curve.seconds <= bearable) return again;
+  const double top_hz = highest_peak(result.curve)->frequency / (2.0 * std::numbers::pi);
+  again.response->frequency_begin_hz = again.response->frequency_end_hz = top_hz;
+  return again;
+}
+
+/// Of the frequency of the largest motion, beyond what one step of the sweep may hide.
+double shift_beyond_a_step(const solver::ResponseCurve& curve, double from, double to) {
+  const auto n = static_cast<double>(curve.points.size() - 1);
+  const double step = std::abs(curve.points.back().frequency - curve.points.front().frequency) / n;
+  return std::copysign(std::max(0.0, std::abs(to - from) - step), to - from) / from;
+}
+
+/// The same integration, of the model with the effect.
+Changes changes_in_time(const SceneDescription& scene, const ReducedModel& model,
+                        const RicherModel& other, const CurveResult& result, double load) {
+  const SceneDescription again = to_integrate(scene, result);
+  const bool all = again.response->frequency_begin_hz == scene.response->frequency_begin_hz &&
+                   again.response->frequency_end_hz == scene.response->frequency_end_hz;
+  const solver::ResponsePoint& top = *highest_peak(result.curve);
+  const solver::ResponseCurve curve =
+      integrated_elsewhere(other.model, again, load_with(other.model, model, load),
+                           all ? result.curve.points.front() : top, other.embedding);
+  if (curve.diagnosis == solver::Diagnosis::interrupted) return {};
+  const solver::ResponsePoint* with = highest_peak(curve);
+  const char* goal = all ? peak_amplitude_goal : one_frequency_goal;
+  if (with == nullptr) return {{goal, not_there}};
+  Changes changes{{goal, with->amplitude / top.amplitude - 1.0}};
+  if (all && result.curve.points.size() > 1) {
+    changes.push_back(
+        {peak_frequency_goal, shift_beyond_a_step(result.curve, top.frequency, with->frequency)});
+  }
+  return changes;
+}
+
+/// The linear peak, or its end.
+Changes changes_of_limit(const SceneDescription& scene, const ReducedModel& model,
+                         const RicherModel& other, const CurveResult& result, LimitName limit) {
+  const solver::ResponsePoint& own = *highest_peak(result.curve);
+  const solver::ResponseCurve curve = limit_curve(other.model, scene, limit);
+  const solver::ResponsePoint* with = highest_peak(curve);
+  if (with == nullptr) return not_found;
+  const Range range = range_of(continuation_options(scene, model));
+  const double change = with->amplitude / own.amplitude - 1.0;
+  const auto is_peak = [&](const solver::ResponsePoint& point) {
+    return range.is_point() || point.mark == solver::PointMark::peak;
+  };
+  const auto shift = [&] {
+    return resonance_change(limit_scene(model), limit_scene(other.model), range, limit);
+  };
+  if (!is_peak(own)) return at_end(shift(), change);
+  if (!is_peak(*with)) return {{peak_outside_goal, shift()}};
+  return {{peak_amplitude_goal, change},
+          {peak_frequency_goal, with->frequency / own.frequency - 1.0}};
+}
+
+Changes changes_with(const SceneDescription& scene, const ReducedModel& model,
+                     const RicherModel& other, const CurveResult& result) {
+  if (const auto* limit = std::get_if<LimitName>(&result.load)) {
+    return changes_of_limit(scene, model, other, result, *limit);
+  }
+  const double load = std::get<double>(result.load);
   try {
-    const solver::Scene with = solver_scene(richer, load_with(richer, model, load));
-    return changes_with(own, {with, other.embedding, factor}, options_of_both(scene, model, richer),
-                        result.curve, peak.amplitude);
+    return result.integrated ? changes_in_time(scene, model, other, result, load)
+                             : changes_balanced(scene, model, other, result, load);
   } catch (const RefusedError&) {  // such a load cannot be with it: there is no peak
     return not_found;
   }
@@ -194,35 +274,25 @@ Changes changes_with(const SceneDescription& scene, const ReducedModel& model,
 
 }  // namespace
 
-RicherModels models_left_out(const ReducedModel& model, const SceneDescription& scene,
-                             const SolvedStructure* structure) {
-  RicherModels others;
-  if (model.patches.empty()) return others;
-  add_switched(model, scene, others);
-  add_described(model, scene, structure, others);
-  return others;
-}
-
 std::vector<ErrorRow> rows_left_out(const ReducedModel& simulated, const SceneDescription& scene,
                                     const std::vector<RicherModel>& others,
                                     const CurveResult& result) {
   const ReducedModel model = model_of(simulated, result.curve);
-  const auto* load = std::get_if<double>(&result.load);
   const solver::ResponsePoint* peak = highest_peak(result.curve);
-  if (load == nullptr || peak == nullptr || result.integrated || !(peak->amplitude > 0.0))
-    return {};
+  if (peak == nullptr || !(peak->amplitude > 0.0)) return {};
+  if (std::holds_alternative<LimitName>(result.load) && !only_limits(scene)) return {};
   std::vector<ErrorRow> rows;
   for (const RicherModel& other : others) {
     if (cut_short()) break;
     const auto begin = std::chrono::steady_clock::now();
-    const Changes changes = changes_with(scene, model, other, result, *load);
+    const Changes changes = changes_with(scene, model, other, result);
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    const ErrorKind kind = changes.found ? ErrorKind::solved : ErrorKind::estimated;
-    rows.push_back(
-        {result.name, peak_amplitude_goal, other.source, changes.amplitude, kind, seconds});
-    rows.push_back(
-        {result.name, peak_frequency_goal, other.source, changes.frequency, kind, seconds});
+    for (const Change& change : changes) {
+      const ErrorKind kind =
+          std::isfinite(change.effect) ? ErrorKind::solved : ErrorKind::estimated;
+      rows.push_back({result.name, change.goal, other.source, change.effect, kind, seconds});
+    }
   }
   return rows;
 }

@@ -11,6 +11,7 @@
 #include "pipelines/description/scene_description.hpp"
 #include "pipelines/effects/model_family.hpp"
 #include "pipelines/model/reduced_model.hpp"
+#include "pipelines/response/error_row.hpp"
 
 namespace microslip::pipelines {
 
@@ -29,6 +30,7 @@ struct RicherModels {
   std::vector<RicherModel> models;
   std::vector<std::string> unknown;  ///< sources that cannot be told for this scene
   std::string note;                  ///< why, where something failed; for the log
+  std::vector<NoBound> no_bound{};   ///< effects that cannot be put back (models_left_out.hpp)
 };
 
 /// Instants (events located in place of sampled forces), cells (four times as many), fit (the

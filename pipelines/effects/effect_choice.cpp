@@ -176,12 +176,15 @@ EffectDecision second_direction(const EffectFacts& facts) {
           facts.motion_ratio, least_motion_along_r(facts.scene)};
 }
 
+/// The linear limits alone know neither harmonics nor roughness nor a speed of slip.
+bool has_load(const EffectFacts& facts) { return facts.has_range() && facts.reach.has_value(); }
+
 EffectDecision higher_harmonics(const EffectFacts& facts) {
   const bool several = facts.scene.settings.harmonics.highest > 1 || in_time(facts.scene);
   EffectDecision decision{several ? yes : no, harmonics_text(facts.scene)};
   if (facts.scene.settings.harmonics.chosen()) decision.simulated = undecided;
   if (!facts.scene.response || !facts.has_contact || in_time(facts.scene)) return decision;
-  if (!facts.has_range()) {
+  if (!has_load(facts)) {
     if (decision.simulated == no) decision.reason = "the first alone is kept";
     return decision;
   }
@@ -194,9 +197,6 @@ EffectDecision higher_harmonics(const EffectFacts& facts) {
   }
   return decision;
 }
-
-/// The linear limits alone know neither roughness nor a speed of slip.
-bool has_load(const EffectFacts& facts) { return facts.has_range() && facts.reach.has_value(); }
 
 EffectDecision roughness(const EffectFacts& facts) {
   if (!is_rough(facts.scene))

@@ -86,6 +86,10 @@ auto members(Is<OptimumBracket> auto& value) {
   auto& [entries, left_out] = value;
   return std::tie(entries, left_out);
 }
+auto members(Is<NoBound> auto& value) {
+  auto& [effect, why] = value;
+  return std::tie(effect, why);
+}
 auto members(Is<ErrorRow> auto& value) {
   auto& [curve, goal, source, effect, kind, seconds] = value;
   return std::tie(curve, goal, source, effect, kind, seconds);

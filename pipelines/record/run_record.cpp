@@ -275,11 +275,11 @@ void RunRecord::begin_again() {
   checkpoint_.forget_parts();
 }
 
-void RunRecord::keep_bounds(double tolerance) {
+void RunRecord::keep_bounds(double tolerance, const std::vector<NoBound>& none) {
   const std::lock_guard lock(mutex_);
   std::vector<ErrorRow> rows = summary_.error_budget;
   rows.insert(rows.end(), left_out_.begin(), left_out_.end());
-  tell_bounds(rows, tolerance, summary_.effects);
+  tell_bounds(rows, tolerance, summary_.effects, none);
 }
 
 void RunRecord::tell_effects() {

@@ -73,7 +73,8 @@ class RunRecord {
   /// those of finer settings come.
   void begin_again();
   /// What the budgets kept so far say about effects left out. @param tolerance  of the peaks.
-  void keep_bounds(double tolerance);
+  /// @param none  as of tell_bounds().
+  void keep_bounds(double tolerance, const std::vector<NoBound>& none);
   /// The table of effects to the log, and a warning of each that is left out and should not be.
   void tell_effects();
   /// The accuracy asked for and whether it is reached.

@@ -18,6 +18,15 @@ inline constexpr const char* marked_frequency_goal = "marked_frequency";
 /// Of an effect that is left out, along a whole curve, and not relative to anything: the number of
 /// the table of effects.
 inline constexpr const char* largest_indicator_goal = "largest_indicator";
+/// Of an effect that is left out, where a curve has no peak within its range: of the resonance
+/// nearest to the range, and of the amplitude at the end that is highest. No part of a bound.
+inline constexpr const char* resonance_goal = "resonance";
+inline constexpr const char* end_amplitude_goal = "end_amplitude";
+/// Of the frequency of a peak that leaves the range with such an effect.
+inline constexpr const char* peak_outside_goal = "peak_outside";
+/// Of a motion integrated in time, at the frequency where it is largest, as all others take too
+/// long.
+inline constexpr const char* one_frequency_goal = "one_frequency";
 inline constexpr const char* best_value_goal = "best_value";
 inline constexpr const char* best_amplitude_goal = "best_amplitude";
 inline constexpr const char* best_frequency_goal = "best_frequency";
@@ -40,6 +49,12 @@ struct ErrorRow {
       0.0;  ///< relative, signed: what would be added with the source refined to its end
   ErrorKind kind = ErrorKind::estimated;
   double seconds = 0.0;  ///< of the refined solution
+};
+
+/// An effect that is left out, and why nothing says what it would change.
+struct NoBound {
+  std::string effect;
+  std::string why;  ///< ends a sentence
 };
 
 /// All sources of one goal together: Σ |effect|, relative half width.

@@ -397,6 +397,16 @@ void tell_time_is_over(double budget, solver::ResponseCurve& curve) {
                               curve.message.empty() ? "" : ": ", budget);
 }
 
+solver::ResponseCurve linear_curve(const ReducedModel& model, LimitName limit,
+                                   solver::ContinuationOptions options) {
+  options.residual_tolerance =
+      solver::ContinuationOptions{}.residual_tolerance;  // nothing is sampled
+  options.corrector = solver::ContinuationOptions::Corrector::newton;
+  return solver::trace_linear(
+      limit_scene(model),
+      limit == LimitName::free ? solver::LinearLimit::free : solver::LinearLimit::stuck, options);
+}
+
 /// Traces the curve of a scene; the harmonics it has are not checked with more.
 CurveResult traced(const ReducedModel& model, const SceneDescription& scene,
                    const CurveRequest& request, const solver::PointObserver& observe,
@@ -406,13 +416,7 @@ CurveResult traced(const ReducedModel& model, const SceneDescription& scene,
   result.load = load_of(request, model);
   result.gap = gap_of(result.load, model);
   if (const auto* limit = std::get_if<LimitName>(&result.load)) {
-    options.residual_tolerance =
-        solver::ContinuationOptions{}.residual_tolerance;  // nothing is sampled
-    options.corrector = solver::ContinuationOptions::Corrector::newton;
-    result.curve = solver::trace_linear(
-        limit_scene(model),
-        *limit == LimitName::free ? solver::LinearLimit::free : solver::LinearLimit::stuck,
-        options);
+    result.curve = linear_curve(model, *limit, std::move(options));
     add_limit_shares(model, result);
     return result;
   }
@@ -454,6 +458,11 @@ CurveResult traced(const ReducedModel& model, const SceneDescription& scene,
 
 }  // namespace
 
+solver::ResponseCurve limit_curve(const ReducedModel& model, const SceneDescription& scene,
+                                  LimitName limit) {
+  return linear_curve(model, limit, continuation_options(scene, model));
+}
+
 CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene,
                         const CurveRequest& request, const solver::PointObserver& observe,
                         const solver::ResponseCurve* near) {
@@ -470,6 +479,18 @@ CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene
   const auto* load = std::get_if<double>(&result.load);
   if (load != nullptr && !result.integrated) check_harmonics(model, scene, *load, result);
   return result;
+}
+
+solver::ResponseCurve integrated_elsewhere(const ReducedModel& model, const SceneDescription& scene,
+                                           double load, const solver::ResponsePoint& point,
+                                           const Eigen::MatrixXd& embedding) {
+  contact::Harmonics begin(point.q.n_harmonics(), model.frequency.size());
+  begin.rows() = point.q.rows();
+  if (embedding.size() > 0) begin.rows() = point.q.rows() * embedding.transpose();
+  const Eigen::VectorXd factors = slowing_of(model, *scene.response);
+  begin.rows() *= factors.cwiseInverse().asDiagonal();
+  const auto goes_on = [](const auto&) { return !interrupt_requested() && !cut_short(); };
+  return integrate_curve(integrated_scene(model, *scene.response, load), scene, goes_on, &begin);
 }
 
 const solver::ResponsePoint* highest_peak(const solver::ResponseCurve& curve) {

@@ -21,6 +21,10 @@ namespace microslip::pipelines {
 /// full contact.
 [[nodiscard]] solver::Scene limit_scene(ReducedModel model);
 
+/// The curve of one of them over the range of a scene.
+[[nodiscard]] solver::ResponseCurve limit_curve(const ReducedModel& model,
+                                                const SceneDescription& scene, LimitName limit);
+
 /// Natural frequencies with every contact point stuck [Hz], ascending, as many as the model has.
 [[nodiscard]] Eigen::VectorXd stuck_frequencies(const ReducedModel& model);
 
@@ -55,6 +59,15 @@ void require_held(const ReducedModel& model, const SceneDescription& scene);
                                       const CurveRequest& request,
                                       const solver::PointObserver& observe,
                                       const solver::ResponseCurve* near = nullptr);
+
+/// Another model integrated in time over the range of a scene, begun with the motion of a point of
+/// the curve.
+/// @param point      at the first frequency of the range.
+/// @param embedding  modal coordinates from those of the curve; empty: the same modes.
+[[nodiscard]] solver::ResponseCurve integrated_elsewhere(const ReducedModel& model,
+                                                         const SceneDescription& scene, double load,
+                                                         const solver::ResponsePoint& point,
+                                                         const Eigen::MatrixXd& embedding);
 
 /// Solves the highest peak with more harmonics than were given,
 /// where the contact is not proved linear: result.richer.

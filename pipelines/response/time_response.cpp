@@ -67,7 +67,7 @@ struct Irregular {
 };
 
 solver::ResponseCurve sweep(const solver::Scene& scene, const SceneDescription& description,
-                            const solver::PointObserver& observe) {
+                            const solver::PointObserver& observe, const contact::Harmonics* begin) {
   const solver::TimeOptions options = time_options(description);
   solver::ResponseCurve curve;
   Irregular irregular;
@@ -75,7 +75,7 @@ solver::ResponseCurve sweep(const solver::Scene& scene, const SceneDescription& 
   bool started = false;
   for (const double frequency : swept_frequencies(*description.response)) {
     const solver::TimeSystem system(scene, frequency);
-    if (!started) state = solver::state_at_rest(system);
+    if (!started) state = begin ? solver::state_on(system, *begin) : solver::state_at_rest(system);
     started = true;
     try {
       const solver::TimePoint point = solver::integrate_to_steady_state(system, options, state);
@@ -116,11 +116,12 @@ void require_steps(const solver::Scene& scene, const ResponseDescription& respon
 
 solver::ResponseCurve integrate_curve(const solver::Scene& scene,
                                       const SceneDescription& description,
-                                      const solver::PointObserver& observe) {
+                                      const solver::PointObserver& observe,
+                                      const contact::Harmonics* begin) {
   using Clock = std::chrono::steady_clock;
-  const Clock::time_point begin = Clock::now();
-  solver::ResponseCurve curve = sweep(scene, description, observe);
-  curve.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  const Clock::time_point start = Clock::now();
+  solver::ResponseCurve curve = sweep(scene, description, observe, begin);
+  curve.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   return curve;
 }
 

@@ -3,6 +3,7 @@
 /// its begin to its end, as a response curve like any other.
 #pragma once
 
+#include "contact/harmonics.hpp"
 #include "pipelines/description/scene_description.hpp"
 #include "solver/continuation.hpp"
 #include "solver/response_curve.hpp"
@@ -19,8 +20,11 @@ void require_steps(const solver::Scene& scene, const ResponseDescription& respon
 /// Periodic motions only become points; the others are counted in the message (diagnosis
 /// `not-periodic`).
 /// @param scene  with `transient`.
+/// @param begin  a motion at the first frequency, on which sliders follow for two periods first;
+///               nullptr: from rest.
 [[nodiscard]] solver::ResponseCurve integrate_curve(const solver::Scene& scene,
                                                     const SceneDescription& description,
-                                                    const solver::PointObserver& observe);
+                                                    const solver::PointObserver& observe,
+                                                    const contact::Harmonics* begin = nullptr);
 
 }  // namespace microslip::pipelines

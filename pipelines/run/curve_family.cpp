@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -117,6 +118,11 @@ std::vector<CurveResult> trace_unkept(const ReducedModel& model, const SceneDesc
 
 namespace {
 
+/// Else it has no error budget.
+bool is_balanced(const CurveResult& curve) {
+  return !curve.integrated && std::holds_alternative<double>(curve.load);
+}
+
 /// @param needed  else there are none, and nothing is said.
 RicherModels models_to_compare(const ReducedModel& model, const SceneDescription& scene,
                                const SolvedStructure* structure, bool needed) {
@@ -138,13 +144,16 @@ RicherModels models_to_compare(const ReducedModel& model, const SceneDescription
 std::vector<CurveBudget> budgets_of(const ReducedModel& model, const SceneDescription& scene,
                                     const SolvedStructure* structure, int jobs,
                                     std::vector<CurveResult>& curves, Progress& progress) {
-  if (!scene.accuracy.error_budget || model.patches.empty()) return {};
+  if (!scene.accuracy.error_budget) return {};
+  if (model.patches.empty() && effects_left_out(model, scene).empty()) return {};
   const KeptResults kept(model, scene);
   std::vector<std::optional<CurveBudget>> known(curves.size());
   for (std::size_t i = 0; i < curves.size(); ++i) known[i] = kept.budget(curves[i]);
   const bool any_unknown =
       !std::ranges::all_of(known, [](const auto& budget) { return budget.has_value(); });
-  const RicherModels richer = models_to_compare(model, scene, structure, any_unknown);
+  const bool any_balanced = std::ranges::any_of(curves, is_balanced);
+  const RicherModels richer =
+      models_to_compare(model, scene, structure, any_unknown && any_balanced);
   if (!richer.note.empty()) progress.info(richer.note);
   const RicherModels others =
       any_unknown && !cut_short() ? models_left_out(model, scene, structure) : RicherModels{};
@@ -157,6 +166,7 @@ std::vector<CurveBudget> budgets_of(const ReducedModel& model, const SceneDescri
       return;
     }
     budgets[i] = error_budget(model, scene, richer, curves[i]);
+    budgets[i].no_bound = others.no_bound;
     if (cut_short()) return;
     budgets[i].left_out = rows_left_out(model, scene, others.models, curves[i]);
     for (const RicherModels* with : {&others, &richer}) {

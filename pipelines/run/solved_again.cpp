@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <exception>
+#include <utility>
 
+#include "pipelines/accuracy/models_left_out.hpp"
 #include "pipelines/description/curve_request.hpp"
 #include "pipelines/description/damping_ratios.hpp"
 #include "pipelines/effects/effects.hpp"
@@ -64,6 +66,34 @@ bool solve(const Solution& before, const Refinement& step, int jobs, Progress& p
   return !cut_short();
 }
 
+/// Effects that are left out and may have no bound, with the reason it would have.
+std::vector<NoBound> without_bound(const Solution& solution) {
+  std::vector<NoBound> none;
+  for (const CurveBudget& budget : solution.budgets) {
+    none.insert(none.end(), budget.no_bound.begin(), budget.no_bound.end());
+  }
+  std::string why = "no curve has a peak to compare";
+  if (was_cut_short()) why = "the time was over";
+  if (!solution.scene.accuracy.error_budget) why = "accuracy.error_budget = \"off\"";
+  for (std::string& name : effects_left_out(solution.model, solution.scene)) {
+    none.push_back({std::move(name), why});
+  }
+  if (solution.model.effects.motion_ratio > least_given_motion) {
+    none.push_back({"second_direction", why});
+  }
+  if (only_limits(solution.scene)) why = "no curve under a load is asked for";
+  if (!solution.model.patches.empty()) {
+    none.push_back({"nonlinearity", why});
+    none.push_back({"higher_harmonics", why});
+  }
+  for (const char* part : {"separation", "mean_coupling"}) {
+    if (!solution.model.effects.normal_motion) {
+      none.push_back({part, "it comes with normal_motion, and is part of what that changes"});
+    }
+  }
+  return none;
+}
+
 bool is_complete(const std::vector<CurveResult>& curves) {
   return std::ranges::all_of(curves, [](const CurveResult& one) { return one.curve.complete; });
 }
@@ -113,7 +143,7 @@ void keep_budgets(const Solution& solution, RunRecord& record) {
   for (std::size_t i = 0; i < solution.budgets.size(); ++i) {
     record.keep_budget(solution.budgets[i], solution.curves[i], solution.model);
   }
-  record.keep_bounds(tolerance_of_effects(solution.scene));
+  record.keep_bounds(tolerance_of_effects(solution.scene), without_bound(solution));
 }
 
 std::vector<EffectRecord> effects_of(const Solution& solution) {

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,10 +25,13 @@
 
 #include "fem/modal_analysis.hpp"
 #include "fem/surface_load.hpp"
+#include "pipelines/accuracy/left_out.hpp"
+#include "pipelines/description/curve_request.hpp"
 #include "pipelines/effects/effects.hpp"
 #include "pipelines/effects/model_family.hpp"
 #include "pipelines/model/contact_frame.hpp"
 #include "pipelines/model/linear_limits.hpp"
+#include "pipelines/response/response_stage.hpp"
 #include "pipelines/scene/scene_file.hpp"
 #include "pipelines/structure/structure_stage.hpp"
 #include "tests/support/box_mesh.hpp"
@@ -257,6 +261,51 @@ TEST(CurvedContact, ChoiceAndSettingAreTold) {
   EXPECT_EQ(told("on").simulated, Simulated::yes);
   EXPECT_EQ(told("off").simulated, Simulated::no);
   EXPECT_FALSE(told("off").objection.empty()) << "an off that is wrong is objected to";
+}
+
+// The mean plane of a face in its place, and what that changes of the stuck peak: told beside the
+// curve, and by a study of its own.
+TEST(CurvedContact, LeavingTheAxesOutHasABound) {
+  const mesh::Mesh mesh = test::box_mesh(mesh::ElementType::hex20, sector(1.2, {1, 6, 2}));
+  const auto scene_with = [&](const char* setting, double middle) {
+    return scene_of({"contact.points=60", "response.harmonics=1", "response.preload=[\"stuck\"]",
+                     "effects.second_direction=on",
+                     fmt::format("response.frequency=[{}, {}]", 0.95 * middle, 1.05 * middle),
+                     fmt::format("effects.local_frames={}", setting)});
+  };
+  struct Study {
+    SceneDescription scene;
+    SolvedStructure structure;
+    ReducedModel model;
+    CurveResult curve;
+  };
+  const auto solved = [&](const SceneDescription& scene) {
+    check_names(mesh, scene);
+    Study study{scene, {mesh, solve_structure(mesh, scene)}, {}, {}};
+    std::vector<std::string> warnings;
+    study.model = model_of(scene, &study.structure, warnings);
+    study.curve = trace_curve(study.model, scene, curve_requests(scene).at(0),
+                              [](const auto&) { return true; });
+    return study;
+  };
+  const SceneDescription any = scene_with("off", 1000.0);
+  const double stuck = stuck_frequencies(model_on(mesh, any), 2)[1] / (2.0 * std::numbers::pi);
+  const Study without = solved(scene_with("off", stuck));
+  const Study with = solved(scene_with("auto", stuck));
+  const RicherModels others = models_left_out(without.model, without.scene, &without.structure);
+  ASSERT_EQ(others.models.size(), 1U);
+  ASSERT_EQ(others.models[0].source, "local_frames");
+  const auto rows = rows_left_out(without.model, without.scene, others.models, without.curve);
+  ASSERT_EQ(rows.size(), 2U);
+  const solver::ResponsePoint& own = *highest_peak(without.curve.curve);
+  const solver::ResponsePoint& other = *highest_peak(with.curve.curve);
+  const double amplitude = other.amplitude / own.amplitude - 1.0;
+  const double frequency = other.frequency / own.frequency - 1.0;
+  std::printf("local frames left out: amplitude %+.4f, told %+.4f; frequency %+.5f, told %+.5f\n",
+              amplitude, rows[0].effect, frequency, rows[1].effect);
+  EXPECT_GT(std::abs(amplitude) + std::abs(frequency), 0.01);
+  EXPECT_NEAR(rows[0].effect, amplitude, 1e-4);
+  EXPECT_NEAR(rows[1].effect, frequency, 1e-6);
 }
 
 TEST(CurvedContact, StaticPreloadPressesAlongTheNormalsOfEveryPlace) {

@@ -326,8 +326,45 @@ class WhatOtherKeysGiveIsSwitchedOff(unittest.TestCase):
         self.assertGreater(effect(off, "static_preload")["indicator"], 0.1)
 
     def test_rotation(self):
-        off = self.compare("centrifugal", f"{SCENES}/blade_static_preload.toml", [s.replace("2000", "500") for s in self.BLADE], None)
+        off = self.compare("centrifugal", f"{SCENES}/blade_static_preload.toml", [s.replace("2000", "500").replace("330 Hz", "300 Hz") for s in self.BLADE], None)
         self.assertGreater(effect(off, "centrifugal")["indicator"], 1e-4)
+
+    def test_a_range_that_only_the_rotating_blade_has_a_peak_in(self):
+        path, settings = f"{SCENES}/blade_static_preload.toml", ['model.element_size="20 mm"', "response.harmonics=1", "response.maps=[]",
+                                                                 'response.preload=["static"]', "contact.points=96"]
+        off, on = run("still", path, *settings, "effects.centrifugal=off"), run("turning", path, *settings)
+        self.assertGreater(peaks(on)["preload_static"], 5 * peaks(off)["preload_static"])
+        row = effect(off, "centrifugal")
+        self.assertIsNone(row["bound"])
+        self.assertIn("no peak within its range to compare: the resonance nearest to the range changes by +21 %", row["reason"])
+        self.assertTrue([line for line in off["warnings"] if "effects.centrifugal: left out" in line], off["warnings"])
+        limits = run("limits", path, *settings, "effects.centrifugal=off", 'response.preload=["free", "stuck"]')
+        self.assertIn("+21 %", effect(limits, "centrifugal")["reason"])
+        self.assertIn("no bound was made of what it would change: no curve under a load", effect(limits, "nonlinearity")["reason"])
+
+    def test_where_errors_are_not_asked_for_it_is_said_that_there_is_no_bound(self):
+        summary = run("unbounded", scene("law"), self.LAW, "response.harmonics=3", "effects.rate_dependence=off", "accuracy.error_budget=off")
+        row = effect(summary, "rate_dependence")
+        self.assertIsNone(row["bound"])
+        self.assertIn('no bound was made of what it would change: accuracy.error_budget = "off"', row["reason"])
+
+    def test_a_motion_in_time_has_a_bound(self):
+        settings = ["response.method=time", "response.frequency=22", "effects.normal_motion=off"]
+        off, on = run("time_off", scene("time", normal=0.3), *settings), run("time_on", scene("time", normal=0.3), *settings[:2])
+        row = effect(off, "normal_motion")
+        self.assertAlmostEqual(row["bound"], abs(peaks(on)["scale_1"] / peaks(off)["scale_1"] - 1), delta=1e-4)
+        self.assertNotEqual(row["objection"], "")
+
+    def test_effects_that_hide_each_other(self):
+        path = scene("both_off", normal=0.2, across=0.3)
+        off = run("both_off", path, "response.harmonics=3", "effects.normal_motion=off", "effects.second_direction=off")
+        on = run("both_on", path, "response.harmonics=3")
+        true = abs(peaks(on)["scale_1"] / peaks(off)["scale_1"] - 1)
+        for name in ("normal_motion", "second_direction"):
+            row = effect(off, name)
+            self.assertGreaterEqual(row["bound_together"], (1 - 1e-5) * true)
+            self.assertGreater(abs(row["bound_together"] - row["bound"]), 0.01)
+        self.assertIn("with normal_motion + second_direction put back together", effect(off, "normal_motion")["reason"])
 
     def test_stability_wear_and_maps_change_no_curve(self):
         path, given = scene("told_off"), ['response.maps=["peak"]', "response.limits=true", "contact.wear_coefficient=1e-13", "response.harmonics=3"]

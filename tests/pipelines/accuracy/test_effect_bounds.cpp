@@ -55,6 +55,45 @@ TEST(EffectBounds, WhatMattersIsObjectedToAndWhatDoesNotAnswersTheIndicator) {
   EXPECT_EQ(objection(0.01), "");
 }
 
+TEST(EffectBounds, ACurveWithoutAPeakIsToldInWords) {
+  std::vector<EffectRecord> effects{left_out("centrifugal", "the indicator says so")};
+  tell_bounds({{"a", resonance_goal, "centrifugal", 0.21, ErrorKind::solved, 0.1},
+               {"a", end_amplitude_goal, "centrifugal", -0.8, ErrorKind::solved, 0.1},
+               {"b", peak_amplitude_goal, "centrifugal", 0.001, ErrorKind::solved, 0.1}},
+              tolerance, effects);
+  EXPECT_FALSE(effects[0].bound.has_value());  // that of "b" alone would be a false one
+  EXPECT_NE(effects[0].reason.find("curve a has no peak within its range to compare: the resonance "
+                                   "nearest to the range changes by +21 % with it"),
+            std::string::npos)
+      << effects[0].reason;
+  EXPECT_NE(effects[0].reason.find("can be compared change by 0.1 % at most"), std::string::npos);
+  EXPECT_NE(effects[0].objection.find("by -80 %"), std::string::npos) << effects[0].objection;
+}
+
+TEST(EffectBounds, WhatHasNoneSaysWhy) {
+  std::vector<EffectRecord> effects{left_out("moments"), left_out("roughness")};
+  const std::vector<NoBound> none{{"moments", "the time was over"}, {"roughness", "unused"}};
+  tell_bounds({{"a", peak_amplitude_goal, "roughness", 1e-3, ErrorKind::solved, 0.1}}, tolerance,
+              effects, none);
+  EXPECT_EQ(effects[0].reason, "; no bound was made of what it would change: the time was over");
+  EXPECT_EQ(effects[1].reason, "");
+}
+
+TEST(EffectBounds, EffectsThatHideEachOtherAreObjectedToTogether) {
+  std::vector<EffectRecord> effects{left_out("moments"), left_out("residual"),
+                                    left_out("roughness")};
+  tell_bounds({{"a", peak_amplitude_goal, "moments", 0.01, ErrorKind::solved, 0.1},
+               {"a", peak_amplitude_goal, "residual", 0.01, ErrorKind::solved, 0.1},
+               {"a", peak_amplitude_goal, "moments + residual", 0.3, ErrorKind::solved, 0.1}},
+              tolerance, effects);
+  EXPECT_EQ(effects[0].bound, 0.01);
+  EXPECT_EQ(effects[0].bound_together, 0.3);
+  EXPECT_EQ(effects[1].bound_together, 0.3);
+  EXPECT_FALSE(effects[2].bound_together.has_value());
+  EXPECT_NE(effects[0].objection.find("moments + residual put back together"), std::string::npos);
+  EXPECT_EQ(effects[1].objection, "");  // told once
+}
+
 TEST(EffectBounds, WhatIsSimulatedHasNone) {
   std::vector<EffectRecord> effects{left_out("second_direction")};
   effects[0].simulated = Simulated::yes;

@@ -1,0 +1,194 @@
+#include "pipelines/accuracy/left_out.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "pipelines/description/curve_request.hpp"
+#include "pipelines/effects/model_family.hpp"
+#include "pipelines/response/response_stage.hpp"
+#include "pipelines/scene/scene_file.hpp"
+
+namespace microslip::pipelines::test_left_out {
+namespace {
+
+using Overrides = std::vector<std::string>;
+
+// One mode along p, which slips, and a load that varies; along r it moves as well.
+constexpr const char* point = R"toml([model]
+kind = "modal"
+[modal]
+frequency = [20, 52]
+damping_ratio = 0.03
+force_sine = [7, 0.5]
+output = [0.75, 0.5]
+[[modal.points]]
+weight = 1
+tangential_stiffness = 4e4
+normal_stiffness = 4e4
+friction_coefficient = 0.5
+preload = 30
+phi_u_1 = 0.5
+phi_u_2 = -0.8
+phi_v_1 = 0.1
+phi_w_1 = 0.3
+phi_w_2 = 0.3
+[response]
+frequency = [19, 28]
+harmonics = 1
+)toml";
+
+struct Study {
+  SceneDescription scene;
+  ReducedModel model;
+  std::vector<CurveResult> curves;
+};
+
+Study solved(const SceneDescription& scene) {
+  std::vector<std::string> warnings;
+  Study study{scene, model_of(scene, nullptr, warnings), {}};
+  for (const CurveRequest& request : curve_requests(scene)) {
+    study.curves.push_back(
+        trace_curve(study.model, scene, request, [](const auto&) { return true; }));
+  }
+  return study;
+}
+
+Study of_point(const Overrides& overrides) {
+  return solved(parse_scene(point, "scene.toml", "/nowhere", overrides));
+}
+
+/// Of the chain whose load varies, between its limits.
+Study of_chain(Overrides overrides) {
+  overrides.insert(overrides.end(), {"response.harmonics=1", "response.maps=[]"});
+  return solved(read_scene(MICROSLIP_SCENES "/chain_3dof_normal.toml", overrides));
+}
+
+std::vector<ErrorRow> rows_of(const Study& study) {
+  std::vector<ErrorRow> rows;
+  const RicherModels others = models_left_out(study.model, study.scene, nullptr);
+  for (const CurveResult& curve : study.curves) {
+    const auto own = rows_left_out(study.model, study.scene, others.models, curve);
+    rows.insert(rows.end(), own.begin(), own.end());
+  }
+  return rows;
+}
+
+const ErrorRow* found(const std::vector<ErrorRow>& rows, const std::string& source,
+                      const std::string& goal, const std::string& curve = "") {
+  const auto row = std::ranges::find_if(rows, [&](const ErrorRow& one) {
+    return one.source == source && one.goal == goal && (curve.empty() || one.curve == curve);
+  });
+  return row == rows.end() ? nullptr : &*row;
+}
+
+double amplitude(const Study& study, std::size_t i = 0) {
+  return highest_peak(study.curves.at(i).curve)->amplitude;
+}
+
+// Both begin elsewhere: one with the motion that it is compared with, the other at rest.
+TEST(LeftOut, AMotionInTimeIsIntegratedAgainWithTheEffect) {
+  for (const char* range : {"response.frequency=22", "response.frequency=[21, 25]"}) {
+    const Overrides in_time{"response.method=time", "response.points=5", range};
+    Overrides off = in_time;
+    off.emplace_back("effects.normal_motion=off");
+    const Study without = of_point(off);
+    const Study with = of_point(in_time);
+    const auto rows = rows_of(without);
+    const ErrorRow* row = found(rows, "normal_motion", peak_amplitude_goal);
+    ASSERT_NE(row, nullptr) << range;
+    const double expected = amplitude(with) / amplitude(without) - 1.0;
+    EXPECT_GT(std::abs(expected), 5e-3);
+    EXPECT_NEAR(row->effect, expected, 1e-5) << range;
+  }
+}
+
+TEST(LeftOut, FrictionAlongRHasABoundInTime) {
+  const Study without =
+      of_point({"response.method=time", "response.frequency=22", "effects.second_direction=off"});
+  const Study with = of_point({"response.method=time", "response.frequency=22"});
+  const auto rows = rows_of(without);
+  const ErrorRow* row = found(rows, "second_direction", peak_amplitude_goal);
+  ASSERT_NE(row, nullptr);
+  EXPECT_NEAR(row->effect, amplitude(with) / amplitude(without) - 1.0, 1e-5);
+}
+
+TEST(LeftOut, LimitsAloneAreComparedByTheirPeaks) {
+  const Overrides limits{"response.preload=[\"free\", \"stuck\"]"};
+  Overrides off = limits;
+  off.emplace_back("effects.normal_motion=off");
+  const Study without = of_chain(off);
+  const Study with = of_chain(limits);
+  const auto rows = rows_of(without);
+  const auto change = [&](std::size_t i) {
+    return amplitude(with, i) / amplitude(without, i) - 1.0;
+  };
+  const ErrorRow* free = found(rows, "normal_motion", peak_amplitude_goal, "free");
+  ASSERT_NE(free, nullptr);
+  EXPECT_EQ(free->effect, 0.0);  // nothing touches
+  const ErrorRow* stuck = found(rows, "normal_motion", peak_amplitude_goal, "stuck");
+  ASSERT_NE(stuck, nullptr);
+  EXPECT_NEAR(stuck->effect, change(1), 1e-9);
+  EXPECT_GT(std::abs(change(1)), 1e-3);
+}
+
+TEST(LeftOut, LimitsBesideCurvesUnderALoadHaveNoRows) {
+  const Study study = of_chain({"response.preload=[50, \"stuck\"]", "effects.normal_motion=off"});
+  const auto rows = rows_of(study);
+  EXPECT_FALSE(rows.empty());
+  EXPECT_EQ(found(rows, "normal_motion", peak_amplitude_goal, "stuck"), nullptr);
+}
+
+// Above the resonance of the one model, about that of the other: the end of the range says nothing.
+TEST(LeftOut, WithoutAPeakInTheRangeTheResonanceIsTold) {
+  const Overrides above{"response.frequency=[23.5, 27]"};
+  Overrides off = above;
+  off.emplace_back("effects.second_direction=off");
+  const Study without = of_point(off);
+  const Study with = of_point(above);
+  EXPECT_EQ(highest_peak(without.curves[0].curve)->mark, solver::PointMark::none);
+  ASSERT_EQ(highest_peak(with.curves[0].curve)->mark, solver::PointMark::peak);
+  const auto rows = rows_of(without);
+  EXPECT_EQ(found(rows, "second_direction", peak_amplitude_goal), nullptr);
+  const ErrorRow* resonance = found(rows, "second_direction", resonance_goal);
+  ASSERT_NE(resonance, nullptr);
+  const double stuck_with = stuck_frequencies(with.model).minCoeff();
+  EXPECT_NEAR(resonance->effect, stuck_with / stuck_frequencies(without.model).minCoeff() - 1.0,
+              1e-9);
+  EXPECT_GT(resonance->effect, 0.02);
+}
+
+TEST(LeftOut, APeakThatLeavesTheRangeIsToldByItsFrequency) {
+  const Study without = of_point({"response.frequency=[20, 23]", "effects.second_direction=off"});
+  ASSERT_EQ(highest_peak(without.curves[0].curve)->mark, solver::PointMark::peak);
+  const auto rows = rows_of(without);
+  EXPECT_EQ(found(rows, "second_direction", peak_amplitude_goal), nullptr);
+  const ErrorRow* outside = found(rows, "second_direction", peak_outside_goal);
+  ASSERT_NE(outside, nullptr);
+  const Study with = of_point({});
+  const double expected = highest_peak(with.curves[0].curve)->frequency /
+                              highest_peak(without.curves[0].curve)->frequency -
+                          1.0;
+  EXPECT_NEAR(outside->effect, expected, 1e-4);
+}
+
+// Each alone is compared with the other still off.
+TEST(LeftOut, SeveralArePutBackTogetherAsWell) {
+  const Study without = of_point({"effects.normal_motion=off", "effects.second_direction=off"});
+  const Study with = of_point({});
+  const auto rows = rows_of(without);
+  const ErrorRow* both = found(rows, "normal_motion + second_direction", peak_amplitude_goal);
+  ASSERT_NE(both, nullptr);
+  EXPECT_NEAR(both->effect, amplitude(with) / amplitude(without) - 1.0, 1e-6);
+  for (const char* alone : {"normal_motion", "second_direction"}) {
+    const ErrorRow* row = found(rows, alone, peak_amplitude_goal);
+    ASSERT_NE(row, nullptr) << alone;
+    EXPECT_GT(std::abs(row->effect - both->effect), 1e-3) << alone;
+  }
+}
+
+}  // namespace
+}  // namespace microslip::pipelines::test_left_out
