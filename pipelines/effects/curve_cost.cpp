@@ -1,8 +1,10 @@
 #include "pipelines/effects/curve_cost.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <variant>
+#include <vector>
 
 #include "contact/contact_force.hpp"
 #include "pipelines/description/curve_request.hpp"
@@ -16,6 +18,11 @@ constexpr double microsecond = 1e-6;
 // Evaluations of the contact.
 constexpr double of_a_curve = 600.0;
 constexpr double of_a_choosing_curve = 1600.0;  // one with few harmonics, the choice, one with all
+// Times as many where several points open and close at instants of their own, events located.
+constexpr double of_many_events = 3.2;
+// An effect put back at the peaks of a curve: of a mesh, with a peak or two; of numbers.
+constexpr double of_an_effect_on_a_mesh = 60.0;
+constexpr double of_an_effect = 190.0;
 constexpr double of_one_frequency = 25.0;
 constexpr double of_a_check = 30.0;  // of the peak, with eight harmonics more than were given
 constexpr double of_a_start = 20.0;
@@ -92,17 +99,32 @@ double point_seconds(const CurveEffects& effects, const Size& size) {
   const bool rough = effects.roughness;
   const bool plain = !effects.second_direction && !rough && !effects.rate_dependence;
   const double more = size.harmonics - 1;  // harmonics
+  const double both = rough && effects.rate_dependence ? 1.25 : 1.0;
   switch (contact::method_for(std::llround(size.points), plain, size.harmonics)) {
     case contact::Method::closed_form:
       return 1.0 * microsecond;
     case contact::Method::lanes:
-      return (plain ? 7.0 + 0.9 * more : (rough ? 40.0 : 30.0) + 1.5 * more) * microsecond;
+      return (plain ? 7.0 + 0.9 * more : both * (rough ? 32.0 : 25.0) + 2.0 * more) * microsecond;
     case contact::Method::point_methods:
       break;
   }
   if (plain) return (2.0 + 1.5 * more + 0.17 * more * more) * microsecond;
-  if (!effects.second_direction) return 17.0 * (1.0 + 0.7 * more) * microsecond;
-  return (rough ? 250.0 : 140.0) * size.harmonics * microsecond;
+  if (!effects.second_direction) return 17.0 * both * (1.0 + 0.7 * more) * microsecond;
+  const double surface = (rough ? 1.4 : 1.0) * (effects.rate_dependence ? 1.55 : 1.0);
+  return 215.0 * surface * (1.0 + 0.13 * more) * microsecond;
+}
+
+/// Of points of a scene of numbers, of which several have a load that varies; those of a mesh are
+/// many, and have no events located.
+bool has_many_events(const SceneDescription& scene, const Size& size) {
+  const auto* modal = std::get_if<ModalModel>(&scene.model);
+  if (modal == nullptr || size.points < 2.0 || setting_of(scene, "normal_motion") == "off") {
+    return false;
+  }
+  const bool varies = std::ranges::any_of(
+      modal->points, [](const auto& point) { return point.normal_stiffness > 0.0; });
+  const auto n = std::llround(size.points);
+  return varies && contact::method_for(n, false, size.harmonics) == contact::Method::point_methods;
 }
 
 double cube_of_unknowns(const Size& size) {
@@ -150,7 +172,59 @@ double seconds_in_time(const SceneDescription& scene, const Size& size) {
          (periods_from_rest + steps * periods_of_a_step);
 }
 
+/// What a scene leaves out though it could have it, as a run puts it back: members of CurveEffects
+/// that change then; nullptr: the evaluation takes as long.
+std::vector<bool CurveEffects::*> members_left_out(const SceneDescription& scene) {
+  struct Described {
+    const char* name;
+    bool CurveEffects::*member;
+  };
+  static constexpr std::array described{
+      Described{"roughness", &CurveEffects::roughness},
+      Described{"rate_dependence", &CurveEffects::rate_dependence},
+      Described{"moments", &CurveEffects::areas},
+      Described{"residual", &CurveEffects::residual},
+      Described{"static_preload", nullptr},
+      Described{"centrifugal", nullptr},
+  };
+  std::vector<bool CurveEffects::*> members;
+  for (const Described& effect : described) {
+    if (left_out(scene, effect.name) != nullptr) members.push_back(effect.member);
+  }
+  if (setting_of(scene, "second_direction") == "off" && can_move_along_r(scene)) {
+    members.push_back(&CurveEffects::second_direction);
+  }
+  if (setting_of(scene, "normal_motion") == "off") members.push_back(nullptr);
+  return members;
+}
+
+/// One evaluation with each of the effects that are left out, and one with all of them, where there
+/// are several.
+double evaluations_with(const SceneDescription& scene, const CurveEffects& effects) {
+  const std::vector<bool CurveEffects::*> members = members_left_out(scene);
+  CurveEffects all = effects;
+  double seconds = 0.0;
+  for (bool CurveEffects::*member : members) {
+    CurveEffects one = effects;
+    if (member != nullptr) one.*member = all.*member = true;
+    seconds += evaluation_seconds(one, size_of(scene, one));
+  }
+  return members.size() > 1 ? seconds + evaluation_seconds(all, size_of(scene, all)) : seconds;
+}
+
+/// Of a motion in time, as many integrations.
+double integrations_with(const SceneDescription& scene, double once) {
+  const auto n = static_cast<double>(members_left_out(scene).size());
+  return (n > 1.0 ? n + 1.0 : n) * once;
+}
+
 }  // namespace
+
+bool can_move_along_r(const SceneDescription& scene) {
+  const auto* modal = std::get_if<ModalModel>(&scene.model);
+  return modal == nullptr ? !scene.contacts.empty()
+                          : modal->shapes.w.size() > 0 && !modal->shapes.w.isZero(0.0);
+}
 
 CurveEffects curve_effects(const SceneDescription& scene, bool second_direction) {
   const HarmonicSettings& harmonics = scene.settings.harmonics;
@@ -172,17 +246,23 @@ ResponseSeconds response_seconds(const SceneDescription& scene, const CurveEffec
   ResponseSeconds seconds;
   if (scene.response->method == ResponseDescription::Method::time) {
     seconds.curves = seconds_in_time(scene, size);
+    if (scene.accuracy.error_budget) seconds.errors = integrations_with(scene, seconds.curves);
   } else {
-    const double evaluations = one                        ? of_one_frequency
-                               : effects.chosen_harmonics ? of_a_choosing_curve
-                                                          : of_a_curve;
+    const double more = has_many_events(scene, size) ? of_many_events : 1.0;
+    const double evaluations = more * (one                        ? of_one_frequency
+                                       : effects.chosen_harmonics ? of_a_choosing_curve
+                                                                  : of_a_curve);
     seconds.curves =
         n_curves(scene) *
         (std::max(0.5 * evaluations * evaluation,
                   evaluations * evaluation + (one ? 1.0 : points_of_a_curve) * stability) +
          check_seconds(scene, effects, size));
-    const bool told = scene.accuracy.error_budget && !scene.contacts.empty();
-    if (told) seconds.errors = n_curves(scene) * of_error_rows * evaluation;
+    if (scene.accuracy.error_budget) {
+      const bool meshed = !scene.contacts.empty();
+      const double rows = meshed ? of_error_rows * evaluation : 0.0;
+      const double check = meshed ? of_an_effect_on_a_mesh : of_an_effect;
+      seconds.errors = n_curves(scene) * (rows + check * evaluations_with(scene, effects));
+    }
   }
   if (scene.response->optimum) {
     constexpr double stable_curves =

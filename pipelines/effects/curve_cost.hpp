@@ -20,13 +20,18 @@ struct CurveEffects {
   bool stability = true;
 };
 
+/// Its contact has displacements along r.
+[[nodiscard]] bool can_move_along_r(const SceneDescription& scene);
+
 /// What a scene has. @param second_direction  as decided.
 [[nodiscard]] CurveEffects curve_effects(const SceneDescription& scene, bool second_direction);
 
 /// Stages of a run [s].
 struct ResponseSeconds {
   double curves = 0.0;  ///< traced, or integrated in time
-  double errors = 0.0;  ///< of the curves, on the modes at hand: coarser meshes are no part of it
+  /// Of the curves, and what the effects that are left out would change, on the modes at hand:
+  /// other meshes and modes are no part of it.
+  double errors = 0.0;
   double best_value = 0.0;  ///< the search for it
   double bracket = 0.0;     ///< the same with uncertain numbers multiplied
   [[nodiscard]] double total() const { return curves + errors + best_value + bracket; }

@@ -64,11 +64,11 @@ Forecast forecast_of(const mesh::Mesh& mesh, const SceneDescription& scene,
   forecast.solver_memory = solver_memory(mesh, scene.settings.basis.solver);
   forecast.memory_gb = memory_before_modes + 1e-3 * forecast.solver_memory->needed_mb();
   add_curves(scene, model, forecast);
-  const double more = coarser_meshes_seconds(forecast.degrees_of_freedom, scene);
-  if (forecast.response.errors > 0.0) forecast.response.errors += more;
-  if (forecast.response_along_r && forecast.response_along_r->errors > 0.0) {
-    forecast.response_along_r->errors += more;
-  }
+  if (!scene.response) return forecast;
+  const double more = coarser_meshes_seconds(forecast.degrees_of_freedom, scene) +
+                      modes_again_seconds(forecast.degrees_of_freedom, scene, model);
+  forecast.response.errors += more;
+  if (forecast.response_along_r) forecast.response_along_r->errors += more;
   return forecast;
 }
 

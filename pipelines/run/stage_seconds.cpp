@@ -1,12 +1,18 @@
 #include "pipelines/run/stage_seconds.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
 #include <variant>
+#include <vector>
 
+#include "pipelines/accuracy/models_left_out.hpp"
 #include "pipelines/description/curve_request.hpp"
+#include "pipelines/description/effects_left_out.hpp"
 #include "pipelines/description/element_count.hpp"
 #include "pipelines/effects/curve_cost.hpp"
+#include "pipelines/effects/effect_choice.hpp"
 #include "pipelines/structure/solver_time.hpp"
 
 namespace microslip::pipelines {
@@ -30,9 +36,25 @@ double mesh_and_modes_seconds(double degrees_of_freedom, const SceneDescription&
 
 double coarser_meshes_seconds(double degrees_of_freedom, const SceneDescription& scene) {
   if (!scene.accuracy.error_budget || !element_size_of(scene)) return 0.0;
+  if (in_time(scene) || only_limits(scene)) return 0.0;
   constexpr double fewer = 5.0;  // a blade is thin: between the square and the cube of two
   return mesh_and_modes_seconds(degrees_of_freedom / fewer, scene) +
          mesh_and_modes_seconds(degrees_of_freedom / (fewer * fewer), scene);
+}
+
+double modes_again_seconds(double degrees_of_freedom, const SceneDescription& scene,
+                           const ReducedModel* model) {
+  if (!scene.accuracy.error_budget || !(degrees_of_freedom > 0.0)) return 0.0;
+  constexpr std::array with_modes{"residual", "centrifugal", "local_frames"};
+  std::vector<std::string> names;
+  if (model != nullptr) names = effects_left_out(*model, scene);
+  double n = 0.0;
+  for (const char* name : with_modes) {
+    const bool known = std::ranges::find(names, name) != names.end();
+    if (known || (model == nullptr && left_out(scene, name) != nullptr)) n += 1.0;
+  }
+  if (n > 0.0 && std::max(static_cast<double>(names.size()), n) > 1.0) n += 1.0;  // all together
+  return n * modes_seconds(degrees_of_freedom, scene.settings.basis.n_modes);
 }
 
 double mesh_seconds(const SceneDescription& scene) {
@@ -49,7 +71,8 @@ double accuracy_seconds(const ReducedModel& model, const SceneDescription& scene
   const auto curves = static_cast<double>(curve_requests(scene).size());
   const double beside = std::clamp(static_cast<double>(jobs), 1.0, std::max(1.0, curves));
   return seconds_of(model, scene).errors / beside +
-         coarser_meshes_seconds(degrees_of_freedom, scene);
+         coarser_meshes_seconds(degrees_of_freedom, scene) +
+         modes_again_seconds(degrees_of_freedom, scene, &model);
 }
 
 double optimum_seconds(const ReducedModel& model, const SceneDescription& scene, bool bracket) {

@@ -16,6 +16,11 @@ namespace microslip::pipelines {
 [[nodiscard]] double coarser_meshes_seconds(double degrees_of_freedom,
                                             const SceneDescription& scene);
 
+/// Modes that are solved for again with effects that are left out, to tell what those would change.
+/// @param model  nullptr: not known, so that a curved face is not.
+[[nodiscard]] double modes_again_seconds(double degrees_of_freedom, const SceneDescription& scene,
+                                         const ReducedModel* model);
+
 /// Of the mesh alone, before there is one; 0: not known.
 [[nodiscard]] double mesh_seconds(const SceneDescription& scene);
 

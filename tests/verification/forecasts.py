@@ -32,6 +32,11 @@ def blade(harmonics, preload, *settings, size=10, search=False):
         *(['response.optimum_range=["60 N", "1000 N"]'] if search else NO_SEARCH), *settings]
 
 
+def block(preload, harmonics, *settings):
+    law = 'contact.friction_coefficient={ law = "exponential", static = 0.5, kinetic = 0.4, rate = 2 }'
+    return f"{SCENES}/block_rough.toml", [law, f"response.harmonics={harmonics}", f"response.preload={preload}", "response.maps=[]", *settings]
+
+
 BOTH = "effects.second_direction=on"
 FEW = {
     "area, 9 harmonics": (f"{SCENES}/chain_2dof_moment.toml", ["response.maps=[]"]),
@@ -40,6 +45,10 @@ FEW = {
     "chain, best value": chain("response.harmonics=5"),
     "blade, 3 harmonics": blade(3, "[100, 500]"),
     "blade, 3, both directions": blade(3, "[100]", BOTH),
+    # Events located at sixteen points that open; the check of what is off.
+    "block, rough, by speed, both": block("[80]", 1),
+    "block, rough, by speed, r off": block("[20]", 1, "effects.second_direction=off"),
+    "blade, 3, three effects off": blade(3, "[100, 500]", *(f"effects.{name}=off" for name in ("roughness", "moments", "residual")), CUBIC),
 }
 REST = {
     "chain, 9 harmonics, best value": chain(),

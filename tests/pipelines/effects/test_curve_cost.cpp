@@ -71,6 +71,34 @@ TEST(CurveCost, EveryEffectOfTheMethodCosts) {
   }
 }
 
+// What a run does to tell what the effects that are off would change.
+TEST(CurveCost, TheCheckOfWhatIsOffIsPartOfTheErrors) {
+  const Overrides block{"response.preload=[20]", "response.maps=[]"};
+  const auto errors = [&](const Overrides& more) {
+    Overrides overrides = block;
+    overrides.insert(overrides.end(), more.begin(), more.end());
+    const SceneDescription scene = read_scene(MICROSLIP_SCENES "/block_rough.toml", overrides);
+    const bool along_r = scene.settings.second_direction != Discretisation::Choice::off;
+    return response_seconds(scene, curve_effects(scene, along_r)).errors;
+  };
+  EXPECT_EQ(errors({}), 0.0);
+  const double rough = errors({"effects.roughness=off"});
+  const double along_r = errors({"effects.second_direction=off"});
+  EXPECT_GT(rough, 0.0);
+  EXPECT_GT(along_r, 0.0);
+  EXPECT_GT(errors({"effects.roughness=off", "effects.second_direction=off"}),
+            along_r);  // both too
+  EXPECT_EQ(errors({"effects.roughness=off", "accuracy.error_budget=off"}), 0.0);
+  const auto in_time = [](const Overrides& more) {
+    Overrides overrides{"response.method=time", "response.points=4"};
+    overrides.insert(overrides.end(), more.begin(), more.end());
+    return seconds(overrides);
+  };
+  const ResponseSeconds off = in_time({"effects.normal_motion=off"});
+  EXPECT_EQ(off.errors, off.curves);  // as many integrations
+  EXPECT_EQ(in_time({}).errors, 0.0);
+}
+
 TEST(CurveCost, ABestValueIsToldApart) {
   EXPECT_EQ(seconds({}).best_value, 0.0);
   const ResponseSeconds searched =
