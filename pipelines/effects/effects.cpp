@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 #include <utility>
 
@@ -11,6 +12,9 @@
 #include "pipelines/description/effects_left_out.hpp"
 #include "pipelines/effects/curve_cost.hpp"
 #include "pipelines/effects/effect_choice.hpp"
+#include "pipelines/effects/effect_indicators.hpp"
+#include "pipelines/effects/effect_sizes.hpp"
+#include "pipelines/system/scene_error.hpp"
 #include "pipelines/text/effect_table.hpp"
 
 namespace microslip::pipelines {
@@ -24,21 +28,37 @@ bool can_have_residual(const SceneDescription& scene) {
   return as_written(scene).settings.basis.residual != ResidualKind::none;
 }
 
+/// Of a surface: kinds chain and bar have no key for them.
+bool takes_rules(const SceneDescription& scene) {
+  return scene.kind != "chain" && scene.kind != "bar";
+}
+
+/// What a scene lacks for some effects is no question of seconds.
+bool can_be(std::string_view name, const EffectFacts& facts) {
+  if (name == "second_direction") {
+    const bool still = facts.model != nullptr && facts.motion_ratio <= least_given_motion;
+    return facts.has_friction && can_move_along_r(facts.scene) && !still;
+  }
+  if (name == "roughness") return facts.has_normal_stiffness && takes_rules(facts.scene);
+  if (name == "rate_dependence") return facts.has_friction && takes_rules(facts.scene);
+  if (name == "moments") return has_area(facts.scene);
+  if (name == "residual") return can_have_residual(facts.scene);
+  return true;
+}
+
 /// An effect by which the method of the contact points, or the number of unknowns, goes.
 struct Costly {
   std::string_view name;
   bool CurveEffects::*member;
-  bool (*needs)(const SceneDescription&);  ///< for its cost to be told; nullptr: nothing
 };
 
 const Costly* costly(std::string_view name) {
-  static constexpr std::array effects{
-      Costly{"second_direction", &CurveEffects::second_direction, nullptr},
-      Costly{"roughness", &CurveEffects::roughness, nullptr},
-      Costly{"rate_dependence", &CurveEffects::rate_dependence, nullptr},
-      Costly{"moments", &CurveEffects::areas, has_area},
-      Costly{"residual", &CurveEffects::residual, can_have_residual},
-      Costly{"stability", &CurveEffects::stability, nullptr}};
+  static constexpr std::array effects{Costly{"second_direction", &CurveEffects::second_direction},
+                                      Costly{"roughness", &CurveEffects::roughness},
+                                      Costly{"rate_dependence", &CurveEffects::rate_dependence},
+                                      Costly{"moments", &CurveEffects::areas},
+                                      Costly{"residual", &CurveEffects::residual},
+                                      Costly{"stability", &CurveEffects::stability}};
   const auto found = std::ranges::find(effects, name, &Costly::name);
   return found == effects.end() ? nullptr : &*found;
 }
@@ -56,7 +76,7 @@ std::optional<double> cost_of(std::string_view name, const EffectFacts& facts) {
     with.several_harmonics = with.chosen_harmonics = true;
     without.several_harmonics = without.chosen_harmonics = false;
   } else if (const Costly* effect = costly(name); effect != nullptr) {
-    if (effect->needs != nullptr && !effect->needs(facts.scene)) return std::nullopt;
+    if (!can_be(name, facts)) return std::nullopt;
     with.*effect->member = true;
     without.*effect->member = false;
   } else {
@@ -73,13 +93,19 @@ bool is_watched(const EffectRecord& effect, const EffectFacts& facts) {
   return effect.name == "coexistence" && is_single_frequency(facts.scene);
 }
 
+/// Empty: it is not above.
+std::string objection_above(const EffectRow& row, double indicator, double threshold) {
+  if (indicator <= threshold) return {};
+  return fmt::format("left out, and {} is {:.2g}, above {:.2g}", row.quantity, indicator,
+                     threshold);
+}
+
 /// Left out, and the indicator says that it should not be.
 std::string objection_to(const EffectRecord& effect, const EffectRow& row,
                          const EffectFacts& facts) {
   if (effect.simulated != no || !effect.indicator || !effect.threshold) return {};
-  if (*effect.indicator <= *effect.threshold || !is_watched(effect, facts)) return {};
-  return fmt::format("left out, and {} is {:.2g}, above {:.2g}", row.quantity, *effect.indicator,
-                     *effect.threshold);
+  if (!is_watched(effect, facts)) return {};
+  return objection_above(row, *effect.indicator, *effect.threshold);
 }
 
 EffectRecord record_of(const EffectRow& row, const EffectFacts& facts) {
@@ -98,7 +124,50 @@ EffectRecord record_of(const EffectRow& row, const EffectFacts& facts) {
   return effect;
 }
 
+/// Of an effect that is left out, by the model with it.
+void tell_left_out(std::string_view name, const SceneDescription& scene,
+                   const std::function<std::optional<double>(const SceneDescription&)>& indicator,
+                   std::vector<EffectRecord>& effects) {
+  if (left_out(scene, name) == nullptr) return;
+  const auto effect = std::ranges::find(effects, name, &EffectRecord::name);
+  if (effect == effects.end() || effect->indicator) return;
+  try {
+    effect->indicator = indicator(with_effect(scene, name));
+  } catch (const RefusedError& error) {
+    effect->reason += fmt::format("; its indicator is not known: {}", error.what());
+    return;
+  }
+  const EffectRow& row = effect_row(name);
+  effect->threshold = row.threshold;
+  if (effect->indicator)
+    effect->objection = objection_above(row, *effect->indicator, row.threshold);
+}
+
 }  // namespace
+
+void tell_moments_left_out(const SceneDescription& scene, const SolvedStructure& structure,
+                           std::vector<EffectRecord>& effects) {
+  if (!scene.response) return;
+  tell_left_out(
+      "moments", scene,
+      [&](const SceneDescription& with) {
+        std::vector<std::string> warnings;  // those of the scene itself are told already
+        return tilt_size(model_of(with, &structure, warnings), with);
+      },
+      effects);
+}
+
+void tell_residual_left_out(const SceneDescription& scene, const SolvedStructure& structure,
+                            std::vector<EffectRecord>& effects) {
+  tell_left_out(
+      "residual", scene,
+      [&](const SceneDescription& with) -> std::optional<double> {
+        const SolvedStructure solved{structure.mesh, solve_structure(structure.mesh, with)};
+        std::vector<std::string> warnings;
+        return residual_share(model_of(with, &solved, warnings), with);
+      },
+      effects);
+}
 
 std::vector<EffectRecord> effects_of(const SceneDescription& scene, const ReducedModel* model,
                                      const mesh::Mesh* mesh) {

@@ -10,6 +10,7 @@
 #include "mesh/mesh.hpp"
 #include "pipelines/description/scene_description.hpp"
 #include "pipelines/effects/effect_record.hpp"
+#include "pipelines/effects/model_family.hpp"
 #include "pipelines/model/reduced_model.hpp"
 
 namespace microslip::pipelines {
@@ -21,6 +22,15 @@ namespace microslip::pipelines {
 [[nodiscard]] std::vector<EffectRecord> effects_of(const SceneDescription& scene,
                                                    const ReducedModel* model,
                                                    const mesh::Mesh* mesh = nullptr);
+
+/// The indicator of moments that a scene of a mesh leaves out, by its model with them.
+/// @param structure  of the scene.   @param effects  as of effects_of().
+void tell_moments_left_out(const SceneDescription& scene, const SolvedStructure& structure,
+                           std::vector<EffectRecord>& effects);
+
+/// The same of what stands for omitted modes: modes are solved for again.
+void tell_residual_left_out(const SceneDescription& scene, const SolvedStructure& structure,
+                            std::vector<EffectRecord>& effects);
 
 /// One of them. @throws std::out_of_range  no such name.
 [[nodiscard]] const EffectRecord& effect_in(const std::vector<EffectRecord>& effects,

@@ -266,6 +266,11 @@ std::optional<ReducedModel> check_meshed(const SceneDescription& scene,
     }
   }
   result.effects = effects_of(scene, model ? &*model : nullptr, &mesh);
+  if (modes) {
+    const SolvedStructure structure{mesh, std::move(*modes)};
+    tell_moments_left_out(scene, structure, result.effects);
+    if (is_short(mesh, scene)) tell_residual_left_out(scene, structure, result.effects);
+  }
   return model;
 }
 

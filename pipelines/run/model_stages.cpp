@@ -84,7 +84,9 @@ ReducedModel reduced_model(const SceneDescription& scene, const StructurePointer
         "longer than friction along p; effects.second_direction = \"off\" leaves it out",
         percent_text(model.effects.motion_ratio)));
   }
-  record.keep_effects(effects_of(scene, &model));
+  std::vector<EffectRecord> effects = effects_of(scene, &model);
+  if (structure) tell_moments_left_out(scene, *structure, effects);
+  record.keep_effects(std::move(effects));
   record.keep_model(model);
   if (structure) record.keep_structure(structure->mesh, structure->modes.basis);
   return model;

@@ -342,6 +342,25 @@ class WhatOtherKeysGiveIsSwitchedOff(unittest.TestCase):
         self.assertIn("+21 %", effect(limits, "centrifugal")["reason"])
         self.assertIn("no bound was made of what it would change: no curve under a load", effect(limits, "nonlinearity")["reason"])
 
+    def test_check_tells_indicators_of_what_a_mesh_leaves_out(self):
+        settings = ['model.element_size="20 mm"', "response.harmonics=1", "response.maps=[]", "contact.points=96",
+                    "response.preload=[100]", "response.optimum=", "response.optimum_range="]
+
+        def told(*off):
+            command = [PROGRAM, "check", f"{SCENES}/blade_to_ground.toml"]
+            for setting in settings + [f"effects.{name}=off" for name in off]:
+                command += ["--set", setting]
+            text = subprocess.run(command, capture_output=True, text=True, check=True, env=without_plots()).stdout
+            rows = [line.split() for line in text.splitlines() if line.startswith("  ")]
+            return {words[0]: (words[1], words[3]) for words in rows if len(words) > 6}
+
+        given = told()
+        for name in ("moments", "residual"):
+            (there, indicator), (gone, the_same) = given[name], told(name)[name]
+            self.assertEqual((there, gone), ("yes", "no"))
+            self.assertNotEqual(indicator, "-")
+            self.assertEqual(the_same, indicator)
+
     def test_where_errors_are_not_asked_for_it_is_said_that_there_is_no_bound(self):
         summary = run("unbounded", scene("law"), self.LAW, "response.harmonics=3", "effects.rate_dependence=off", "accuracy.error_budget=off")
         row = effect(summary, "rate_dependence")

@@ -147,6 +147,24 @@ double amplitude(double k, double frequency_hz) {
   return 1.0 / std::hypot(omega_n * omega_n + k - omega * omega, 0.02 * omega_n * omega);
 }
 
+TEST(Effects, WhatASceneCannotHaveHasNoCost) {
+  const auto cost = [](const SceneDescription& scene, const char* name) {
+    const ReducedModel model = model_in(scene);
+    return effect_in(effects_of(scene, &model), name).seconds;
+  };
+  const SceneDescription chain = read_scene(MICROSLIP_SCENES "/chain_2dof.toml", {});
+  for (const char* name : {"second_direction", "roughness", "rate_dependence", "moments"}) {
+    EXPECT_FALSE(cost(chain, name).has_value()) << name;
+  }
+  EXPECT_GT(cost(chain, "higher_harmonics").value_or(0.0), 0.0);
+  // One that moves along p alone, on a surface that may be rough; then along r as well.
+  EXPECT_FALSE(cost(scene_of({}), "second_direction").has_value());
+  EXPECT_GT(cost(scene_of({}), "roughness").value_or(0.0), 0.0);
+  const SceneDescription across = scene_of({"modal.points[0].phi_w_1=0.2"});
+  EXPECT_GT(cost(across, "second_direction").value_or(0.0), 0.0);
+  EXPECT_FALSE(cost(scene_of({"modal.points[0].normal_stiffness=0"}), "roughness").has_value());
+}
+
 TEST(Effects, ReachOfAPointIsThatOfItsLimits) {
   const SceneDescription scene = scene_of({});
   const ContactReach reach = contact_reach(model_in(scene), scene, 1.0);
@@ -273,7 +291,9 @@ TEST(Effects, ContactThatOpensThoughItWasNotToIsTold) {
 // Whether it is simulated or not.
 TEST(Effects, TheForecastTellsWhatAnEffectCosts) {
   const std::string rough = "contact.roughness={ law = \"cubic\", height = 1e-3 }";
-  for (const Overrides& overrides : {Overrides{rough}, Overrides{rough, "effects.roughness=off"}}) {
+  const std::string along_r = "modal.points[0].phi_w_1=0.2";
+  for (const Overrides& overrides :
+       {Overrides{rough, along_r}, Overrides{rough, along_r, "effects.roughness=off"}}) {
     const SceneDescription scene = parse_scene(text, "scene.toml", "/nowhere", overrides);
     const ReducedModel model = model_in(scene);
     const std::vector<EffectRecord> told = effects_of(scene, &model);
