@@ -5,6 +5,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 
 #include <Eigen/Core>
@@ -42,8 +43,10 @@ struct BranchVector {
 
 struct NewtonOptions {
   double tolerance = 1e-11;  ///< of ‖R‖ / scaling.residual; at least scaling.rounding
-  int max_iterations = 15;
+  int max_iterations = 15;   ///< 0: no step of Newton's method (few_jacobians.hpp)
 };
+
+class BranchFactors;
 
 /// Tangent of the branch in scaled variables, of length one.
 struct Tangent {
@@ -61,6 +64,8 @@ struct NewtonResult {
   /// Where the last Jacobian was factorised with the constraint: in the scaling and at less than
   /// 90° to the constraint of the solve.
   std::optional<Tangent> tangent;
+  /// Those factors, which serve places near by.
+  std::shared_ptr<const BranchFactors> factors;
 };
 
 /// Steps satisfy c_x·Δx/σ_x + c_p Δp/σ_p = 0. After a tolerance below 5e-11 is met the iteration

@@ -25,8 +25,9 @@ constexpr double angle_wanted = 0.13;  // rad per step
 // Where the predictor has learned the bend, and a plot as well.
 constexpr double learned_angle = 0.2;
 constexpr double correction_limit = 0.3;  // of the step: beyond, the point may be another branch's
+constexpr int modest_attempts = 2;        // of a step, without Newton's method
 constexpr int wanted_iterations = 4;
-constexpr int wanted_updates = 6;  // of Broyden's method, by forces alone
+constexpr int wanted_updates = 12;  // of Broyden's method, by forces alone
 // Of a step, which is at most a fifth of a resonance wide: below it are rounding errors only.
 constexpr double exact_share = 1e-13;
 // Of a sampled force, whose Jacobian errs by some 1e-4: the square of this in the amplitude of a
@@ -65,7 +66,7 @@ BranchWalker::Trial BranchWalker::corrected(const BranchVector& predicted,
                                             int max_iterations) {
   Trial trial;
   const NewtonOptions options{tolerance_, max_iterations};
-  NewtonResult solution = solved(predicted, direction, options);
+  NewtonResult solution = solved(predicted, direction, options, now_);
   evaluations_ += solution.evaluations;
   iterations_ += solution.iterations;
   trial.converged = solution.converged;
@@ -88,10 +89,15 @@ Tangent BranchWalker::tangent_at(const NewtonResult& at, const BranchVector& pre
 }
 
 NewtonResult BranchWalker::solved(const BranchVector& predicted, const BranchVector& direction,
-                                  const NewtonOptions& options) const {
+                                  const NewtonOptions& options, const WalkerPoint& nearby) {
   if (!residual_) return solve_newton(system_, predicted, direction, now_.scaling, options);
-  return solve_with_few_jacobians({system_, residual_}, predicted, direction, now_.scaling,
-                                  options);
+  if (!now_.solution.factors) {  // by Newton's method
+    now_.solution.factors =
+        std::make_shared<BranchFactors>(now_.solution.evaluation, now_.tangent, now_.scaling);
+  }
+  const auto& factors = nearby.solution.factors ? nearby.solution.factors : now_.solution.factors;
+  return solve_with_few_jacobians({system_, residual_}, predicted, direction, now_.scaling, options,
+                                  factors.get());
 }
 
 bool BranchWalker::smooth(const Trial& trial) const {
@@ -151,8 +157,9 @@ void BranchWalker::remember(Remedy remedy) {
 
 bool BranchWalker::advance() {
   bool failed = false;
+  int modest = residual_ ? modest_attempts : 0;
   while (step_ >= shortest_step) {
-    Trial trial = attempt(step_, 10);
+    Trial trial = attempt(step_, modest-- > 0 ? 0 : 10);
     const bool kink = step_ < kink_step && trial.correction < kink_correction;
     if (trial.converged && (smooth(trial) || kink)) {
       if (failed) remember(Remedy::shorter_step);
@@ -222,23 +229,17 @@ bool BranchWalker::leap() {
   return false;
 }
 
-NewtonResult BranchWalker::solved_between(const BranchVector& start,
-                                          const BranchVector& chord) const {
-  if (residual_) {
-    return solve_with_few_jacobians({system_, residual_}, start, chord, now_.scaling,
-                                    {.tolerance = tolerance_});
-  }
-  // Next to a kink an iterate of the wrong side meets the usual tolerance, with the wrong tangent.
-  return solve_newton(system_, start, chord, now_.scaling, {.tolerance = 1e-14});
-}
-
 double BranchWalker::resolution() const { return residual_ ? sampled_share : exact_share; }
 
 /// On the plane through the start across the chord.
 std::optional<WalkerPoint> BranchWalker::corrected(const BranchVector& start,
-                                                   const BranchVector& chord) {
+                                                   const BranchVector& chord,
+                                                   const WalkerPoint& nearby) {
   const Scaling& scaling = now_.scaling;
-  NewtonResult solution = solved_between(start, chord);
+  // Next to a kink an iterate of the wrong side meets the usual tolerance, with the wrong tangent.
+  const double tight = 1e-14;
+  NewtonResult solution =
+      solved(start, chord, {.tolerance = residual_ ? tolerance_ : tight}, nearby);
   evaluations_ += solution.evaluations;
   iterations_ += solution.iterations;
   const double tolerance = std::max(tolerance_, scaling.rounding);
@@ -266,7 +267,8 @@ std::optional<StepPoint> BranchWalker::between(const StepPoint& a, const StepPoi
   const double u = (share - a.share) / width;
   for (const BranchVector& start : starts_between(Knot(a.point, chord, size, scaling),
                                                   Knot(b.point, chord, size, scaling), u, width)) {
-    if (auto point = corrected(start, chord)) return StepPoint{share, std::move(*point)};
+    if (auto point = corrected(start, chord, u < 0.5 ? a.point : b.point))
+      return StepPoint{share, std::move(*point)};
   }
   return std::nullopt;
 }

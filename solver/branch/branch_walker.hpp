@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "solver/balance/branch_factors.hpp"
 #include "solver/balance/newton.hpp"
 #include "solver/branch/branch_geometry.hpp"
 #include "solver/branch/predictor.hpp"
@@ -46,7 +47,8 @@ class BranchWalker {
   /// Steps are chosen by what the contact does as well (step_states.hpp).
   void watch(StateReader reader) { states_ = StepStates(std::move(reader)); }
 
-  /// Steps are corrected with one Jacobian each (few_jacobians.hpp).
+  /// Steps are corrected with one Jacobian each, from the factors of the point before
+  /// (few_jacobians.hpp).
   /// @param residual  of the same system, may leave the derivatives empty.
   void economise(ParametricSystem residual) { residual_ = std::move(residual); }
 
@@ -101,13 +103,12 @@ class BranchWalker {
   [[nodiscard]] bool leap();
   [[nodiscard]] bool turn_at_kink();
   [[nodiscard]] std::optional<WalkerPoint> corrected(const BranchVector& start,
-                                                     const BranchVector& chord);
+                                                     const BranchVector& chord,
+                                                     const WalkerPoint& nearby);
   [[nodiscard]] Tangent tangent_at(const NewtonResult& at, const BranchVector& previous,
                                    const Scaling& scaling) const;
-  [[nodiscard]] NewtonResult solved_between(const BranchVector& start,
-                                            const BranchVector& chord) const;
   [[nodiscard]] NewtonResult solved(const BranchVector& predicted, const BranchVector& direction,
-                                    const NewtonOptions& options) const;
+                                    const NewtonOptions& options, const WalkerPoint& nearby);
 
   ParametricSystem system_;
   ParametricSystem residual_;  ///< empty: Newton's method all the way

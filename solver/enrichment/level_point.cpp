@@ -55,10 +55,11 @@ class Climb {
   [[nodiscard]] std::optional<Step> solved(const BranchVector& guess, const BranchVector& row,
                                            const BranchVector& tangent) {
     const NewtonResult at = solve_balance(balance_, range_.corrector, guess, row, start_.scaling,
-                                          {.tolerance = tolerance});
+                                          {.tolerance = tolerance}, nearby_.get());
     work_.iterations += at.iterations;
     work_.contact_evaluations += at.evaluations;
     if (!at.converged) return std::nullopt;
+    if (at.factors) nearby_ = at.factors;
     Step step;
     step.point = at.point;
     const Tangent along =
@@ -121,6 +122,7 @@ class Climb {
   const ContinuationOptions& range_;
   PeakWork& work_;
   double farthest_;
+  std::shared_ptr<const BranchFactors> nearby_;  // of the last place solved for
   Step now_;
   std::optional<Step> before_;
   std::optional<Step> rising_;

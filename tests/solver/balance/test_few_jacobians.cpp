@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <numbers>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -76,6 +77,34 @@ TEST(FewJacobians, FarFromTheChordItIsNewtonsMethod) {
   EXPECT_GT(bench.n_whole, 1);
   EXPECT_LE(found.residual, 1e-11);
   EXPECT_EQ(found.evaluations, bench.n_whole + bench.n_residual);
+}
+
+TEST(FewJacobians, FactorsOfAnotherPlaceSaveTheJacobianOfAGuess) {
+  Bench bench(50.0, 5, 21.0);
+  const double frequency = two_pi * 21.1;
+  const BranchVector guess{1.001 * bench.at.point.x, frequency};
+  const NewtonResult alone = bench.solved(guess);
+  ASSERT_TRUE(alone.converged);
+  const int n_alone = std::exchange(bench.n_whole, 0);
+  const BranchFactors factors(bench.at.evaluation, bench.hold, bench.scaling);
+  const NewtonResult led =
+      solve_with_few_jacobians(bench.system, guess, bench.hold, bench.scaling, {}, &factors);
+  ASSERT_TRUE(led.converged);
+  EXPECT_EQ(bench.n_whole, 1);
+  EXPECT_GT(n_alone, 1);
+  EXPECT_LT((led.point.x - alone.point.x).norm(), 1e-8 * alone.point.x.norm());
+  ASSERT_NE(led.factors, nullptr);
+}
+
+TEST(FewJacobians, WithoutNewtonsMethodWhatIsFarIsGivenUp) {
+  Bench bench(50.0, 3, 21.0);
+  const BranchFactors factors(bench.at.evaluation, bench.hold, bench.scaling);
+  const NewtonResult lost =
+      solve_with_few_jacobians(bench.system, {-40.0 * bench.at.point.x, two_pi * 27.0}, bench.hold,
+                               bench.scaling, {.max_iterations = 0}, &factors);
+  EXPECT_FALSE(lost.converged);
+  EXPECT_EQ(bench.n_whole, 0);
+  EXPECT_EQ(lost.evaluations, bench.n_residual);
 }
 
 TEST(FewJacobians, ResidualAloneIsThatOfTheWholeEvaluation) {
