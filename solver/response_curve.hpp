@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,16 +30,24 @@ struct PeriodEnergy {
   double damping = 0.0;   ///< W_damp, of the viscous damping of the modes
 };
 
+/// How the output goes on along the branch.
+struct BranchSlope {
+  double amplitude = 0.0;  ///< d(amplitude)/dω [m s]
+  double phase = 0.0;      ///< d(phase)/dω [s]
+};
+
 struct ResponsePoint {
   double frequency = 0.0;   ///< ω [rad/s]
   Harmonics q;              ///< [m√kg]
   std::vector<int> orders;  ///< harmonics that were unknowns beside the mean; empty: all of q
   double harmonics_left_out =
-      0.0;                        ///< what those left out change, over the amplitude; 0: not asked
-  double amplitude = 0.0;         ///< half the peak-to-peak value of the output over the period [m]
-  double first_amplitude = 0.0;   ///< first harmonic of the output [m]
-  double mean = 0.0;              ///< mean of the output [m]
-  double phase = 0.0;             ///< atan2(y_c, y_s) of the first harmonic [rad]
+      0.0;                       ///< what those left out change, over the amplitude; 0: not asked
+  double amplitude = 0.0;        ///< half the peak-to-peak value of the output over the period [m]
+  double first_amplitude = 0.0;  ///< first harmonic of the output [m]
+  double mean = 0.0;             ///< mean of the output [m]
+  double phase = 0.0;            ///< atan2(y_c, y_s) of the first harmonic [rad]
+  /// Empty: at a fold, where the branch turns back, and of motions that are integrated.
+  std::optional<BranchSlope> slope;
   double residual = 0.0;          ///< relative to max(excitation, contact force of the stuck limit)
   double energy_imbalance = 0.0;  ///< |W_exc − W_damp − W_fric| / max(|W_exc|, W_damp + W_fric)
   double dissipation_mismatch = 0.0;  ///< |W_fric − ∬∮ μn|ds| dA| over the same

@@ -89,6 +89,17 @@ constexpr std::array point_table{
                           [](const auto& p) { return fmt::format("{}", p.iterations); }},
     Column<ResponsePoint>{"harmonics", "1", "that were unknowns, the mean not counted",
                           [](const auto& p) { return fmt::format("{}", n_harmonics(p)); }},
+    Column<ResponsePoint>{"amplitude_slope_m_per_Hz", "m/Hz",
+                          "of the branch: change of `amplitude_m` with the frequency; empty at a "
+                          "fold, and of motions that are integrated",
+                          [](const auto& p) {
+                            return p.slope ? format_number(p.slope->amplitude * contact::two_pi)
+                                           : std::string();
+                          }},
+    Column<ResponsePoint>{"phase_slope_deg_per_Hz", "deg/Hz", "the same of `phase_deg`",
+                          [](const auto& p) {
+                            return p.slope ? format_number(p.slope->phase * 360.0) : std::string();
+                          }},
 };
 
 /// Of the column of that name in curves/NAME.csv.

@@ -25,11 +25,15 @@ auto members(Is<PeriodEnergy> auto& value) {
   auto& [friction, damping] = value;
   return std::tie(friction, damping);
 }
+auto members(Is<BranchSlope> auto& value) {
+  auto& [amplitude, phase] = value;
+  return std::tie(amplitude, phase);
+}
 auto members(Is<ResponsePoint> auto& value) {
-  auto& [frequency, q, orders, left_out, amplitude, first, mean, phase, residual, imbalance,
+  auto& [frequency, q, orders, left_out, amplitude, first, mean, phase, slope, residual, imbalance,
          mismatch, energy, report, stability, basis, sign, mark, iterations, evaluations, seconds] =
       value;
-  return std::tie(frequency, q, orders, left_out, amplitude, first, mean, phase, residual,
+  return std::tie(frequency, q, orders, left_out, amplitude, first, mean, phase, slope, residual,
                   imbalance, mismatch, energy, report, stability, basis, sign, mark, iterations,
                   evaluations, seconds);
 }

@@ -2,13 +2,33 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
+#include <optional>
 
+#include "contact/dense.hpp"
 #include "solver/balance/output_amplitude.hpp"
 #include "solver/balance/period_energy.hpp"
 
 namespace microslip::solver {
 namespace {
+
+/// y_s + i y_c of the first harmonic of the output.
+std::complex<double> first_harmonic(const Harmonics& motion, const Eigen::VectorXd& output) {
+  return {motion.sine().dot(output), motion.cosine().dot(output)};
+}
+
+/// Along (dx/dω, 1), the null vector of [∂R/∂x, ∂R/∂ω]. Empty: ∂R/∂x is singular, or nothing moves.
+std::optional<BranchSlope> branch_slope(const HarmonicBalance& balance, const NewtonResult& at,
+                                        const Harmonics& q, const OutputAmplitude& output) {
+  if (!(output.first_harmonic > 0.0)) return std::nullopt;
+  const Eigen::VectorXd& signal = balance.scene().output;
+  const Harmonics change = balance.harmonics(
+      -contact::solved(at.evaluation.jacobian, at.evaluation.parameter_derivative));
+  if (!change.rows().allFinite()) return std::nullopt;
+  return BranchSlope{.amplitude = output.gradient.dot(change.vector()),
+                     .phase = (first_harmonic(change, signal) / first_harmonic(q, signal)).imag()};
+}
 
 // Works below this share of |A||F| are rounding of terms that cancel: nothing is exchanged.
 constexpr double vanishing = 1e-15;
@@ -27,6 +47,7 @@ ResponsePoint certified_point(HarmonicBalance& balance, const NewtonResult& solu
   point.first_amplitude = output.first_harmonic;
   point.mean = output.mean;
   point.phase = output.phase;
+  point.slope = branch_slope(balance, solution, point.q, output);
   point.residual = solution.residual;
   point.iterations = solution.iterations;
   point.stability = stability.stability;

@@ -8,6 +8,8 @@
 /// energy imbalance |W_exc − W_damp − W_fric|, dissipation mismatch |W_fric − ∬∮ μn|ds| dA|, both
 /// relative to max(|W_exc|, W_damp + W_fric). Both are 0 where all of them vanish: to rounding of
 /// the motion times the excitation, and wherever there is none.
+///
+/// The branch goes on along dx/dω = −(∂R/∂x)⁻¹ ∂R/∂ω: that gives the slopes of the output.
 #pragma once
 
 #include "solver/balance/newton.hpp"

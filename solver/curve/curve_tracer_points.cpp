@@ -36,8 +36,11 @@ StabilityReport CurveTracer::judged(const NewtonResult& at, PointMark mark) {
 ResponsePoint CurveTracer::certified(const NewtonResult& at, PointMark mark) {
   ResponsePoint point = certified_point(*balance_, at, at.point.parameter, judged(at, mark));
   point.mark = mark;
-  // At a fold a multiplier is 1: on which side it falls is rounding.
-  if (mark == PointMark::fold) point.stability = Stability::not_assessed;
+  // At a fold a multiplier is 1 and the slope infinite: on which side they fall is rounding.
+  if (mark == PointMark::fold) {
+    point.stability = Stability::not_assessed;
+    point.slope.reset();
+  }
   return point;
 }
 

@@ -376,9 +376,23 @@ class Page(Case):
                            check=True)
             self.assertGreater(os.path.getsize(picture), 20000)
         drawn = self.drawn(target, 420)
-        paths = re.findall(r'<path d="M[^"]*L', drawn)
+        paths = re.findall(r'<path d="M[^"]*[LC]', drawn)
         self.assertGreaterEqual(len(paths), len(self.run_.curves))
         self.assertRegex(drawn, r"Hysteresis of point \d+: [\d.]+ % of the area")
+
+    def test_the_page_draws_the_cubics_and_no_line_over_a_gap(self):
+        """The free curve alone: one cubic an interval; a gap parts it."""
+        text = self.page(self.run_.folder)
+        data = self.data(text)
+        data["curves"] = [next(curve for curve in data["curves"] if curve["name"] == "free")]
+        data["curves"][0]["stable"] = [1] * len(data["curves"][0]["stable"])
+        n = len(data["curves"][0]["frequency"]) - 1
+        self.assertEqual(len(data["curves"][0]["between"]["amplitude"]), n)
+        data["curves"][0]["between"]["amplitude"][n // 2] = None
+        start, end = re.search(r'<script type="application/json" id="data">(.*?)</script>', text, re.S).span(1)
+        letters = "document.querySelector('[data-chart=curves] svg g path').getAttribute('d').replace(/[^A-Z]/g, '')"
+        drawn = self.measured(text[:start] + json.dumps(data) + text[end:], letters, 1000)
+        self.assertEqual(drawn, "M" + n // 2 * "C" + "M" + (n - 1 - n // 2) * "C")
 
     def test_a_browser_draws_cells_part_by_part(self):
         """Of a row of squares half of the first slips, at every phase."""
@@ -432,6 +446,106 @@ class Page(Case):
         on_paper = text.replace("@media print", "@media screen")
         folded, unfolded = (float(self.measured(page, height, 1200)) for page in (text, on_paper))
         self.assertGreater(unfolded, 5 * folded)
+
+
+def duffing(amplitudes, alpha=0.1, zeta=0.02, force=0.2):
+    """Upper branch of a spring that hardens, up to its peak: frequency over amplitude, F² = [(1 − ω² + ¾αA²)² + (2ζω)²] A².
+    Its slopes are exact; it leans to higher frequencies and has no fold below its peak."""
+    a = amplitudes
+    k = 1 + 0.75 * alpha * a**2
+    b = 2 * zeta**2 - k  # ω⁴ + 2bω² + k² − F²/A² = 0
+    c = k**2 - (force / a) ** 2
+    root = np.sqrt(b**2 - c)
+    frequency = np.sqrt(-b - root)
+    dk = 1.5 * alpha * a
+    db, dc = -dk, 2 * k * dk + 2 * force**2 / a**3
+    by_amplitude = (-db - (2 * b * db - dc) / (2 * root)) / (2 * frequency)
+    return {"frequency_Hz": frequency, "amplitude_m": a, "amplitude_slope_m_per_Hz": 1 / by_amplitude, "mark": [""] * len(a)}
+
+
+def distances(points, line):
+    """Of points from a line through many."""
+    first, way = line[:-1], np.diff(line, axis=0)
+    known = np.isfinite(way).all(axis=1) & (way != 0).any(axis=1)
+    first, way = first[known], way[known]
+    gap = points[:, None, :] - first
+    share = np.clip((gap * way).sum(axis=2) / (way**2).sum(axis=1), 0, 1)
+    return np.sqrt(((gap - share[..., None] * way) ** 2).sum(axis=2).min(axis=1))
+
+
+class BetweenPoints(Case):
+    """The branch between the points of a curve, from its own tangents."""
+
+    def shown(self, table, of):
+        """Frequency and logarithm of the amplitude as shares of their ranges in a table."""
+        frequency, height = of["frequency_Hz"], np.log(of["amplitude_m"])
+        return np.column_stack([(table[:, 0] - frequency.min()) / np.ptp(frequency), np.log(table[:, 1]) / np.ptp(height)])
+
+    def errors(self, coarse, fine, summary):
+        """Largest and mean distance of the points of a fine curve from what is drawn through a coarse one, and from lines."""
+        from microslip.branch import AMPLITUDE, cubics, polyline
+        points = self.shown(np.column_stack([fine["frequency_Hz"], fine["amplitude_m"]]), fine)
+        drawn = self.shown(polyline(cubics(summary, coarse, AMPLITUDE), True, 60), fine)
+        lines = self.shown(np.column_stack([coarse["frequency_Hz"], coarse["amplitude_m"]]), fine)
+        return distances(points, drawn), distances(points, lines)
+
+    def test_the_drawn_curve_meets_the_branch_with_a_power_of_the_spacing(self):
+        """The fourth of arcs; the third of the interval with the inflection, where the error is largest."""
+        fine = duffing(np.geomspace(0.25, 2.0, 2001))
+        largest, mean = [], []
+        for n in (6, 11, 21):
+            drawn, lines = self.errors(duffing(np.geomspace(0.25, 2.0, n)), fine, {})
+            largest.append(drawn.max())
+            mean.append(drawn.mean())
+            self.assertLess(drawn.max(), 0.1 * lines.max())
+        self.assertGreater(largest[0] / largest[2], 8.0**2)
+        self.assertGreater(mean[0] / mean[2], 12.0**2)  # 16², but for the inflection
+
+    def test_a_curve_of_a_third_of_its_points_is_drawn_near_the_others(self):
+        for curve in self.run_.curves.values():
+            n = curve.n_rows
+            kept = np.array([i % 3 == 0 or i == n - 1 or curve["mark"][i] != "" for i in range(n)])
+            drawn, lines = self.errors(curve.rows(kept), curve.rows(~kept), curve.summary)
+            self.assertLess(drawn.mean(), 0.2 * lines.mean(), curve.name)
+
+    def table(self, rows):
+        names = ("frequency_Hz", "amplitude_m", "amplitude_slope_m_per_Hz", "mark")
+        return {name: column if name == "mark" else np.array(column, dtype=float) for name, column in zip(names, zip(*rows))}
+
+    def drawn(self, rows, summary=None):
+        from microslip.branch import AMPLITUDE, cubics, polyline
+        return polyline(cubics(summary or {}, self.table(rows), AMPLITUDE), True)
+
+    def test_nothing_is_drawn_beyond_folds_and_peaks(self):
+        nan = np.nan
+        line = self.drawn([(1, 1, 2, ""), (2, 4, 0, "peak"), (2.2, 3, nan, "fold"), (2, 2, 4, ""), (1.9, 1, nan, "fold"), (3, 0.5, -0.1, "")])
+        self.assertLessEqual(line[:, 1].max(), 4 * (1 + 1e-12))
+        self.assertLessEqual(line[:26, 0].max(), 2.2 + 1e-12)
+        self.assertGreaterEqual(line[26:, 0].min(), 1.9 - 1e-12)
+        steps = np.diff(line[:13, 1])
+        self.assertTrue((steps >= -1e-12).all())
+
+    def test_a_peak_that_no_point_tells_is_none(self):
+        line = self.drawn([(1, 1, 5, ""), (2, 1.5, -5, "")])
+        np.testing.assert_allclose(line[6], [1.5, np.sqrt(1.5)])
+        gap = self.drawn([(1, 1, 5, ""), (2, 1.5, -5, "")], {"diagnosis": "unbounded"})
+        self.assertTrue(np.isnan(gap[1:-1, 1]).all())
+
+    def test_no_line_joins_two_branches(self):
+        rows = [(1, 1, 0.1, ""), (2, 1.1, 0.1, ""), (2.01, 5, 0.1, ""), (3, 5.1, 0.1, "")]
+        line = self.drawn(rows, {"remedies": [{"frequency_Hz": 2.0, "remedy": "other-branch"}]})
+        self.assertTrue(np.isnan(line[14:25, 1]).all())
+        self.assertTrue(np.isfinite(line[:13]).all() and np.isfinite(line[26:]).all())
+
+    def test_a_curve_without_tangents_is_drawn_by_lines(self):
+        rows = [(1, 1, np.nan, ""), (2, 2, np.nan, ""), (4, 1, np.nan, "")]
+        line = self.drawn(rows)
+        np.testing.assert_allclose(line[:, 1], np.exp(np.interp(line[:, 0], [1, 2, 4], np.log([1, 2, 1]))))
+
+    def test_a_phase_that_comes_round_is_parted(self):
+        from microslip.branch import PHASE, cubics
+        table = {**self.table([(1, 1, 0, ""), (2, 1, 0, ""), (3, 1, 0, "")]), "phase_deg": np.array([170.0, 179.0, -179.0])}
+        self.assertEqual(list(np.isnan(cubics({}, table, PHASE)).any(axis=(1, 2))), [False, True])
 
 
 class Numbers(unittest.TestCase):

@@ -11,6 +11,7 @@ import re
 import numpy as np
 
 MARKS = ("", "peak", "fold", "optimum", "flat")
+MAY_LACK = ("amplitude_slope_m_per_Hz", "phase_slope_deg_per_Hz")  # an empty cell is NaN
 AGAIN = "the file is damaged; run the scene again"
 
 
@@ -61,7 +62,7 @@ def read_summary(path):
 
 
 def read_table(path, needed=()):
-    """Columns of a CSV file by name: finite numbers, with `mark` and `at` as text. RunError where a row, a needed
+    """Columns of a CSV file by name: finite numbers, NaN where one may lack, `mark` and `at` as text. RunError where a row, a needed
     column or a number is missing."""
     try:
         with open(path, newline="", encoding="utf-8") as file:
@@ -101,6 +102,8 @@ def column_in(cells, path, name):
     """The cells of one column, each with its line, as numbers or marks."""
     if name == "at":
         return [text for _, text in cells]
+    if name in MAY_LACK:
+        return np.array([number_in(text, path, line, name) if text else math.nan for line, text in cells])
     if name != "mark":
         return np.array([number_in(text, path, line, name) for line, text in cells])
     for line, text in cells:

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <numbers>
 #include <sstream>
 #include <vector>
 
@@ -39,6 +40,7 @@ solver::ResponseCurve three_points() {
   curve.points[0].stability = solver::Stability::not_assessed;
   curve.points[1].mark = solver::PointMark::peak;
   curve.points[1].orders = {1, 3, 5};
+  curve.points[1].slope = {.amplitude = 3e-5, .phase = -0.4};
   curve.points[2].mark = solver::PointMark::fold;
   curve.points[2].stability = solver::Stability::unstable;
   return curve;
@@ -62,7 +64,9 @@ TEST(WriteCsv, CurveHasTheColumnsOfTheInterface) {
                      "mark",
                      "awake_share",
                      "iterations",
-                     "harmonics"};
+                     "harmonics",
+                     "amplitude_slope_m_per_Hz",
+                     "phase_slope_deg_per_Hz"};
   ASSERT_EQ(rows.size(), 4U);
   for (const Row& row : rows) EXPECT_EQ(row.size(), expected.size());
   EXPECT_EQ(rows[0], expected);
@@ -76,8 +80,12 @@ TEST(WriteCsv, CurveValuesStandInTheirColumns) {
   EXPECT_EQ(std::stod(first[2]), 0.99 * 1e-4);
   EXPECT_EQ(std::stod(first[3]), -0.01 * 1e-4);
   EXPECT_DOUBLE_EQ(std::stod(first[4]), -45.0);
-  EXPECT_EQ(Row(first.begin() + 5, first.end()), (Row{"-1", "0.5", "0.3", "0.2", "0.125", "1e-13",
-                                                      "2e-13", "3e-13", "", "1", "3", "1"}));
+  EXPECT_EQ(Row(first.begin() + 5, first.end()),
+            (Row{"-1", "0.5", "0.3", "0.2", "0.125", "1e-13", "2e-13", "3e-13", "", "1", "3", "1",
+                 "", ""}));
+  // d/dω = 1/2π d/df
+  EXPECT_NEAR(std::stod(rows[2][17]), 2.0 * std::numbers::pi * 3e-5, 1e-15);
+  EXPECT_DOUBLE_EQ(std::stod(rows[2][18]), -144.0);
   EXPECT_EQ(rows[2][5], "1");
   EXPECT_EQ(rows[2][13], "peak");
   EXPECT_EQ(rows[2][16], "3");  // unknowns beside the mean, not the highest order

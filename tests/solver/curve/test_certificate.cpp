@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <complex>
+
 #include "tests/solver/duffing.hpp"
 
 namespace microslip::solver::test_certificate {
@@ -39,6 +42,44 @@ TEST(Certificate, AnImbalanceBesideTheExcitationIsTold) {
   EXPECT_LT(certified(scene, {0.0, 0.0, amplitude}, frequency).energy_imbalance, 1e-14);
   EXPECT_NEAR(certified(scene, {0.0, 0.0, 0.5 * amplitude}, frequency).energy_imbalance, 0.5,
               1e-12);
+}
+
+/// On the response curve of the cubic spring, at an amplitude below its peak.
+Eigen::Vector3d solution_of(const tests::Duffing& duffing, double amplitude, double frequency) {
+  const double elastic = 1.0 - frequency * frequency + 0.75 * duffing.alpha * amplitude * amplitude;
+  const std::complex<double> y =
+      duffing.force / std::complex<double>(elastic, 2.0 * duffing.zeta * frequency);
+  return {0.0, y.real(), y.imag()};
+}
+
+/// F(A, ω)² = F² at constant F: dA/dω = −∂F²/∂ω / ∂F²/∂A; phase −atan2(2ζω, 1 − ω² + ¾αA²).
+TEST(Certificate, TheSlopeIsThatOfTheClosedForm) {
+  const tests::Duffing duffing;
+  const Scene scene = duffing.scene();
+  const double frequency = 1.2;
+  const double amplitude = 2.0;
+  // The force that this amplitude takes: the point then lies on the curve.
+  tests::Duffing on_curve = duffing;
+  on_curve.force = duffing.force * std::sqrt(1.0 + duffing.defect(amplitude, frequency));
+  const ResponsePoint point =
+      certified(on_curve.scene(), solution_of(on_curve, amplitude, frequency), frequency);
+  ASSERT_TRUE(point.slope);
+  const double elastic = 1.0 - frequency * frequency + 0.75 * duffing.alpha * amplitude * amplitude;
+  const double viscous = 2.0 * duffing.zeta * frequency;
+  const double by_frequency =
+      4.0 * amplitude * amplitude * (duffing.zeta * viscous - frequency * elastic);
+  const double slope = -by_frequency / duffing.slope(amplitude, frequency);
+  EXPECT_NEAR(point.amplitude, amplitude, 1e-14);
+  EXPECT_NEAR(point.slope->amplitude / slope, 1.0, 1e-12);
+  const double elastic_slope = -2.0 * frequency + 1.5 * duffing.alpha * amplitude * slope;
+  const double phase_slope = -(2.0 * duffing.zeta * elastic - viscous * elastic_slope) /
+                             (elastic * elastic + viscous * viscous);
+  EXPECT_NEAR(point.slope->phase / phase_slope, 1.0, 1e-12);
+}
+
+TEST(Certificate, RestHasNoSlope) {
+  const Scene scene = tests::Duffing{.force = 0.0}.scene();
+  EXPECT_FALSE(certified(scene, Eigen::Vector3d::Zero(), 0.9).slope);
 }
 
 }  // namespace

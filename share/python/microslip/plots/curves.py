@@ -3,6 +3,7 @@
 import numpy as np
 from matplotlib.lines import Line2D
 
+from microslip.branch import AMPLITUDE, cubics, polyline
 from microslip.plots.numbers import is_number
 from microslip.plots.run_folder import load_of
 from microslip.plots.style import ACCENT, legend_below, light_grid, log_scale, subplots
@@ -69,8 +70,10 @@ def draw_curve(axes, run, curve, table):
     colour = run.colour(load)
     frequency = table["frequency_Hz"]
     amplitude = np.where(table["amplitude_m"] > 0, table["amplitude_m"], np.nan) / run.size
+    pieces = cubics(curve, table, AMPLITUDE)
     for kind, part in branches(table):
-        axes.plot(frequency[part], amplitude[part], color=colour, zorder=3 if is_number(load) else 2.5,
+        line = polyline(pieces[part.start:part.stop - 1], log=True)
+        axes.plot(line[:, 0], line[:, 1] / run.size, color=colour, zorder=3 if is_number(load) else 2.5,
                   linewidth=line_width(load), linestyle=LINES[kind])
     marks = np.array(table["mark"])
     for mark, face, style in (("peak", colour, {"marker": "o", "s": 14}),

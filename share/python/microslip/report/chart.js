@@ -72,7 +72,8 @@ function rangeOf(values, log, pad) {
   return [low - pad * (high - low), high + pad * (high - low)];
 }
 
-// A chart of series { label, colour, width, x, y, kind (per point: 1 solid, 0 dashed, -1 dotted), mark, name (at its end), tip(i), lines, bar }.
+// A chart of series { label, colour, width, x, y, kind (per point: 1 solid, 0 dashed, -1 dotted), mark, name (at its end), tip(i), lines, bar,
+// between (per interval: two control points of a cubic, null for a gap; without it lines) }.
 class Chart {
   constructor(host, names) {
     this.host = host; this.names = names; this.series = []; this.zoom = null; this.hidden = new Set();
@@ -147,9 +148,11 @@ class Chart {
     let path = "", pen = "M";
     for (let i = from; i <= to; ++i) {
       const x = this.x.at(s.x[i]), y = this.y.at(s.y[i]);
-      if (!isFinite(x) || !isFinite(y) || (s.breakAt && i > from && s.breakAt(i))) pen = "M";
+      const way = s.between && i > from ? s.between[i - 1] : undefined;
+      if (!isFinite(x) || !isFinite(y) || way === null) pen = "M";
       if (!isFinite(x) || !isFinite(y)) continue;
-      path += `${pen}${x.toFixed(2)} ${y.toFixed(2)}`; pen = "L";
+      if (way && pen !== "M") path += `C${[0, 2].map((k) => `${this.x.at(way[k]).toFixed(2)} ${this.y.at(way[k + 1]).toFixed(2)}`).join(" ")} `;
+      path += `${way && pen !== "M" ? "" : pen}${x.toFixed(2)} ${y.toFixed(2)}`; pen = "L";
     }
     return path;
   }

@@ -6,6 +6,7 @@ import os
 import numpy as np
 
 from microslip.arrows import arrows_at
+from microslip.branch import AMPLITUDE, PHASE, cubics
 from microslip.boundaries import GUARDS, Vertices, instant_boundaries, parted_cells, period_boundaries, triangles_of
 from microslip.files import RunError, trace_in
 from microslip.plots.numbers import is_number, length_unit, plain
@@ -82,6 +83,17 @@ def columns_of(curve, free, size, damage):
     return {name: numbers(values) for name, values in columns.items()}
 
 
+def between(curve, size):
+    """How the curve goes from each point to the next: two control points of a cubic, null for a gap."""
+    drawn_as = {"amplitude": (AMPLITUDE, size), "phase_deg": (PHASE, 1.0)}
+    ways = {}
+    for name, (quantity, unit) in drawn_as.items():
+        if quantity[0] in curve:
+            inner = cubics(curve.summary, curve, quantity)[:, 1:3] / (1.0, unit)
+            ways[name] = [numbers(points.ravel(), 8) if np.isfinite(points).all() else None for points in inner]
+    return ways
+
+
 def curve_entry(curve, free, unit, shade, damage):
     """One curve as the script draws it."""
     name, size = unit
@@ -89,7 +101,7 @@ def curve_entry(curve, free, unit, shade, damage):
     entry = {"name": curve.name, "label": label_of(curve), "colour": shade, "limit": not is_number(curve.preload),
              "complete": curve.summary["complete"], "frequency": numbers(curve["frequency_Hz"], 9),
              "stable": [int(value) for value in curve["stable"]], "mark": curve["mark"],
-             "values": columns_of(curve, free, size, damage)}
+             "values": columns_of(curve, free, size, damage), "between": between(curve, size)}
     if bar and peak:
         entry["bar"] = {"frequency": peak["frequency_Hz"], "amplitude": peak["amplitude_m"] / size,
                         "of_frequency": bar.get("peak_frequency") or 0.0, "of_amplitude": bar.get("peak_amplitude") or 0.0}

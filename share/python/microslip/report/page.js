@@ -18,7 +18,7 @@ function curveSeries(curve, quantity) {
   const mark = curve.mark.map((m, i) => (m === "peak" || m === "fold" ? m : !curve.complete && i === last ? "end" : ""));
   return { label: curve.label, colour: curve.colour, width: curve.limit ? 2.6 : 1.7, x: curve.frequency, y: values, mark,
     kind: curve.stable, bar: quantity.key === "amplitude" ? curve.bar : null,
-    breakAt: quantity.key === "phase_deg" ? (i) => Math.abs(values[i] - values[i - 1]) > 180 : null,
+    between: curve.between[quantity.key],
     tip: (i) => [curve.label + (curve.mark[i] ? `: ${curve.mark[i]}` : ""), `${told(curve.frequency[i], 7)} Hz`,
       ...data.quantities.filter((q) => curve.values[q.key] && curve.values[q.key][i] !== null)
         .map((q) => `${q.short}: ${told(curve.values[q.key][i])}`), state[curve.stable[i]]] };
