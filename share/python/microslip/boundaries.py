@@ -2,10 +2,15 @@
 
 States are known cell by cell; their boundaries are smoother than cells, and follow from when each corner changes its state."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass, field
+from typing import Optional, Sequence, Tuple
 
 import numpy as np
 
+Polygon = Sequence[Sequence[float]]  # rows of shares of the corners of a triangle
+Function = Tuple[Sequence[float], Optional[int]]  # at the corners, and the state that begins where it passes zero
 SLIPPING, SEPARATED = (1, 2, 4), 3
 # Of the period, at the vertices; their zero lines bound the points that slip, that open, that touch at some time.
 GUARDS = ("slip_guard", "smallest_load", "largest_load")
@@ -26,14 +31,14 @@ class Vertices:
     guards: dict = field(default_factory=dict)
 
 
-def triangles_of(cells):
+def triangles_of(cells: np.ndarray) -> np.ndarray:
     """Corner numbers of triangles; quadrilaterals are cut in two."""
     if cells.shape[1] == 3:
         return cells
     return np.concatenate([cells[:, [0, 1, 2]], cells[:, [0, 2, 3]]])
 
 
-def zero_line(corners, triangles, values):
+def zero_line(corners: np.ndarray, triangles: np.ndarray, values: np.ndarray) -> np.ndarray:
     """Where values at the corners vanish, linear in each triangle: ends of segments, k × 2 × 2. A zero counts as above, so that
     two of the three edges of a triangle are crossed, or none."""
     at = values[triangles]
@@ -49,13 +54,13 @@ def zero_line(corners, triangles, values):
     return points[crossed].reshape(-1, 2, 2)
 
 
-def nearest_to_zero(values):
+def nearest_to_zero(values: np.ndarray) -> np.ndarray:
     """Of each row, without the entries that are NaN; NaN where all are."""
     size = np.where(np.isnan(values), np.inf, np.abs(values))
     return np.take_along_axis(values, size.argmin(axis=1)[:, None], axis=1)[:, 0]
 
 
-def cuts(vertices, phase):
+def cuts(vertices: Vertices, phase: int) -> list[tuple[np.ndarray, np.ndarray, Optional[int]]]:
     """What parts the states at one phase (its number): triangles (a mask), a function at the corners of the cells whose zero line
     parts them there, and the state that begins where it passes zero downwards (None: a guard). That is θ_k − θ, where a state
     begins, in triangles where it begins at every corner (and its angle does not leap around the period); and the guards of the period in
@@ -75,13 +80,13 @@ def cuts(vertices, phase):
     return found
 
 
-def instant_boundaries(vertices, phase):
+def instant_boundaries(vertices: Vertices, phase: int) -> np.ndarray:
     """Boundaries of the states at one phase (its number), as zero_line() gives them."""
     lines = [zero_line(vertices.corners, vertices.triangles[here], values) for here, values, _ in cuts(vertices, phase)]
     return np.concatenate(lines) if lines else np.zeros((0, 2, 2))
 
 
-def halves(polygon, values):
+def halves(polygon: Polygon, values: Sequence[float]) -> list[Polygon]:
     """A convex polygon (rows of shares of the corners of its triangle) parted by the zero line of a function that has these values at
     the corners: what is above, and what is below; a zero counts as above."""
     at = [sum(share * value for share, value in zip(row, values)) for row in polygon]
@@ -100,7 +105,7 @@ def halves(polygon, values):
 WHOLE = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
 
 
-def state_in(piece, states, functions):
+def state_in(piece: Polygon, states: Sequence[int], functions: Sequence[Function]) -> Optional[int]:
     """Of a piece of a triangle: that of its corner; without one the state that has begun last. None: its corners disagree, or
     nothing tells."""
     own = {states[row.index(1.0)] for row in piece if 1.0 in row}
@@ -111,7 +116,8 @@ def state_in(piece, states, functions):
     return max(begun)[1] if begun else None
 
 
-def pieces_in(corners, states, functions, cell_state):
+def pieces_in(corners: np.ndarray, states: Sequence[int], functions: Sequence[Function],
+              cell_state: int) -> list[tuple[np.ndarray, int]]:
     """Polygons (k × 2) into which functions part a triangle, with their states; where nothing tells, that of the cell."""
     if not functions:
         return [(corners, cell_state)]
@@ -122,7 +128,8 @@ def pieces_in(corners, states, functions, cell_state):
     return [(np.array(piece) @ corners, cell_state if own is None else int(own)) for piece, own in zip(pieces, found)]
 
 
-def parted_cells(vertices, phase, cell_states):
+def parted_cells(vertices: Vertices, phase: int,
+                 cell_states: np.ndarray) -> tuple[list[int], list[np.ndarray], list[int]]:
     """Cells that boundaries of the states cross at one phase (its number): their numbers; the polygons (k × 2) into which they are
     parted, and the state of each."""
     states, n_cells, functions = vertices.state[:, phase], len(cell_states), {}
@@ -139,7 +146,7 @@ def parted_cells(vertices, phase, cell_states):
     return parted, [polygon for polygon, _ in found], [own for _, own in found]
 
 
-def sides(vertices, guard, state):
+def sides(vertices: Vertices, guard: str, state: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Vertices that never do what a guard is about, and those that do it now."""
     starts = [np.isfinite(of_state).any(axis=1) for of_state in vertices.starts]
     slips, opens = np.isin(state, SLIPPING), state == SEPARATED
@@ -150,7 +157,7 @@ def sides(vertices, guard, state):
     return opens & ~starts[3], ~opens
 
 
-def period_boundaries(vertices):
+def period_boundaries(vertices: Vertices) -> dict[str, np.ndarray]:
     """Boundaries of what occurs within the period, by the name of the guard; those that are there."""
     lines = {}
     for name, values in vertices.guards.items():

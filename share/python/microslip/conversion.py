@@ -1,12 +1,15 @@
 """What the converters of share/scripts have in common: limits, and a sentence for whatever a damaged file does."""
+from __future__ import annotations
+
 import errno
 import resource
 import sys
+from typing import Callable
 
 PACKAGES = {"numpy": "python3-numpy", "meshio": "python3-meshio", "h5py": "python3-h5py", "netCDF4": "python3-netcdf4"}
 
 
-def problem_of(source, error):
+def problem_of(source: str, error: Exception) -> str:
     """A sentence for the user."""
     if isinstance(error, MemoryError):
         return f"{source}: reading it needs more memory than is allowed"
@@ -21,19 +24,19 @@ def problem_of(source, error):
     return f"{source}: reading it failed: {type(error).__name__}: {' '.join(str(error).split())}"
 
 
-def is_of_the_disk(error):
+def is_of_the_disk(error: Exception) -> bool:
     """No fault of the file that is read: what it becomes has no room."""
     return isinstance(error, OSError) and error.errno in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 
-def limit(what, value):
+def limit(what: int, value: int) -> None:
     """To a value, or to less where the user's own limit is lower."""
     _, hard = resource.getrlimit(what)
     lower = value if hard == resource.RLIM_INFINITY else min(value, hard)
     resource.setrlimit(what, (lower, lower))
 
 
-def run(convert, source, output, facts, seconds, megabytes):
+def run(convert: Callable[[str, str, str], object], source: str, output: str, facts: str, seconds: str, megabytes: str) -> int:
     """convert(source, output, facts) within limits of processor time and address space. Returns 0, or after the last line
     of standard error told what is wrong 1, and 4 where that is the disk."""
     limit(resource.RLIMIT_CPU, int(float(seconds)) + 1)

@@ -9,15 +9,18 @@ With q_m(θ) = Σ_h (s_mh sin hθ + c_mh cos hθ), modal forces S_m sin θ + C_m
 
 (4) is W / (4π E) with E twice the mean kinetic energy: a free mode alone has ζ_eq = ζ ω_m/ω.
 """
+from __future__ import annotations
+
 import os
 import re
+from typing import Any, Mapping
 
 import numpy as np
 
 from microslip.files import AGAIN, RunError, data_file, read_table, shown
 
 
-def squares_of(states, n_modes):
+def squares_of(states: Mapping[str, Any], n_modes: int) -> np.ndarray:
     """Σ_h h² (s² + c²) of every mode: (n_rows × n_modes)."""
     squares = np.zeros((len(states["frequency_Hz"]), n_modes))
     for name, values in states.items():
@@ -27,7 +30,7 @@ def squares_of(states, n_modes):
     return squares
 
 
-def energies(folder, name):
+def energies(folder: str, name: str) -> dict[str, np.ndarray]:
     """Columns dissipated_energy_J (W_fric) and equivalent_damping_ratio (ζ_eq, NaN where nothing moves) of a curve of
     the run in `folder`. RunError where model.h5 or the states of the curve are missing or damaged."""
     with data_file(os.path.join(folder, "model.h5")) as file:

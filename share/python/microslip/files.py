@@ -1,5 +1,7 @@
 """Files of a run folder, read with care: whatever is missing or damaged is named by file, line and column."""
 
+from __future__ import annotations
+
 import contextlib
 import csv
 import fcntl
@@ -7,6 +9,7 @@ import json
 import math
 import os
 import re
+from typing import Any, Iterator, Optional, Sequence
 
 import numpy as np
 
@@ -19,12 +22,12 @@ class RunError(Exception):
     """A file of a run is missing, cut off or not what the program wrote, or lacks what is asked: the message says it."""
 
 
-def shown(path):
+def shown(path: str) -> str:
     """A file of the run as messages call it: with the folder it stands in."""
     return os.path.join(*path.split(os.sep)[-2:])
 
 
-def is_held(folder):
+def is_held(folder: str) -> bool:
     """Whether a run is writing there, on this machine: it keeps its lock as long as it lives."""
     try:
         with open(os.path.join(folder, ".lock"), "rb") as lock:
@@ -36,7 +39,7 @@ def is_held(folder):
     return False
 
 
-def read_summary(path):
+def read_summary(path: str) -> dict[str, Any]:
     """summary.json, with what runs of older versions left unsaid."""
     try:
         with open(path, encoding="utf-8") as file:
@@ -61,7 +64,7 @@ def read_summary(path):
     return summary
 
 
-def read_table(path, needed=()):
+def read_table(path: str, needed: Sequence[str] = ()) -> dict[str, Any]:
     """Columns of a CSV file by name: finite numbers, NaN where one may lack, `mark` and `at` as text. RunError where a row, a needed
     column or a number is missing."""
     try:
@@ -83,7 +86,7 @@ def read_table(path, needed=()):
             for i, name in enumerate(names)}
 
 
-def trace_in(path, name):
+def trace_in(path: str, name: str) -> np.ndarray:
     """Parameter, frequency and amplitude of the peaks a search went over; no rows without a file."""
     if not os.path.exists(path):
         return np.empty((0, 3))
@@ -91,14 +94,14 @@ def trace_in(path, name):
     return np.column_stack([table[name], table["frequency_Hz"], table["amplitude_m"]])
 
 
-def write_whole(path, content):
+def write_whole(path: str, content: bytes) -> None:
     """A file of bytes, whole or not at all."""
     with open(path + ".part", "wb") as file:
         file.write(content)
     os.replace(path + ".part", path)
 
 
-def column_in(cells, path, name):
+def column_in(cells: Sequence[tuple[int, str]], path: str, name: str) -> Any:
     """The cells of one column, each with its line, as numbers or marks."""
     if name == "at":
         return [text for _, text in cells]
@@ -112,7 +115,7 @@ def column_in(cells, path, name):
     return [text for _, text in cells]
 
 
-def number_in(text, path, line, name):
+def number_in(text: str, path: str, line: int, name: str) -> float:
     """A finite number; RunError names the cell that holds none."""
     try:
         value = float(text)
@@ -125,7 +128,7 @@ def number_in(text, path, line, name):
 
 
 @contextlib.contextmanager
-def data_file(path):
+def data_file(path: str) -> Iterator[Any]:
     """An HDF5 file of the run, open for reading. RunError where it, or something in it, is missing or damaged."""
     import h5py  # runs without maps need none
     if not os.path.exists(path):
@@ -141,7 +144,7 @@ def data_file(path):
         raise RunError(f"{shown(path)}: is cut off or no HDF5 file: {AGAIN}") from None
 
 
-def require_shape(path, name, values, shape):
+def require_shape(path: str, name: str, values: np.ndarray, shape: Sequence[Optional[int]]) -> None:
     """RunError where an array of a data file does not have its shape."""
     if values.shape != shape:
         raise RunError(f"{shown(path)}: \"{name}\" holds {' × '.join(map(str, values.shape))} values where "

@@ -1,5 +1,9 @@
 """The figures of a run by name, for files and for Python alike."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Optional
+
 from matplotlib import rc_context
 
 from microslip.files import RunError
@@ -10,11 +14,15 @@ from microslip.plots.peaks import parameter_figure, peaks_figure
 from microslip.plots.run_folder import Run
 from microslip.plots.style import STYLE, subplots
 
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
 OF_A_RUN = {"peak_against_preload": peaks_figure, "peak_against_parameter": parameter_figure,
             "curves": curves_figure, "error_budget": error_budget_figure}
 
 
-def figure_of_run(folder, name, lacking):
+def figure_of_run(folder: str, name: str, lacking: str) -> Figure:
     """A figure of OF_A_RUN. RunError, which says what is lacking, where the run has none."""
     with rc_context(STYLE):
         figure = OF_A_RUN[name](Run(folder))
@@ -23,7 +31,7 @@ def figure_of_run(folder, name, lacking):
     return figure
 
 
-def figure_of_map(folder, name=None):
+def figure_of_map(folder: str, name: Optional[str] = None) -> Figure:
     """The figure of a contact map, the first by default."""
     maps = {name_of(path): (path, title) for path, title in maps_of(Run(folder))}
     if not maps:
@@ -35,7 +43,7 @@ def figure_of_map(folder, name=None):
         return map_figure(*maps[name])
 
 
-def draw_one_curve(folder, name, axes=None):
+def draw_one_curve(folder: str, name: str, axes: Optional[Axes] = None) -> Axes:
     """A curve into axes, those of a figure of its own where none are given."""
     run = Run(folder)
     with rc_context(STYLE):

@@ -1,6 +1,9 @@
 """A run folder as the plots need it: its curves in one unit, each with a colour and a name."""
 
+from __future__ import annotations
+
 import os
+from typing import Any, Mapping
 
 from matplotlib import colormaps
 
@@ -9,7 +12,7 @@ from microslip.plots.numbers import is_number, length_unit, plain
 from microslip.plots.style import FREE, STUCK
 
 
-def load_of(curve):
+def load_of(curve: Mapping[str, Any]) -> Any:
     """What tells the curves of a family apart: a scale of the preload, its sum [N], or a limit."""
     scale = curve.get("preload_scale")
     return curve["preload_N"] if scale is None else scale
@@ -18,7 +21,7 @@ def load_of(curve):
 class Run:
     """Summary, tables of the curves that have points, unit of amplitudes, colours of preloads."""
 
-    def __init__(self, folder):
+    def __init__(self, folder: str) -> None:
         self.folder = folder
         self.summary = read_summary(os.path.join(folder, "summary.json"))
         self.title = self.summary.get("title", "")
@@ -32,7 +35,7 @@ class Run:
         self.colours = {load: viridis(0.0 if len(loads) == 1 else 0.93 * i / (len(loads) - 1))
                         for i, load in enumerate(loads)}
 
-    def read_curve(self, curve):
+    def read_curve(self, curve: Mapping[str, Any]) -> dict[str, Any]:
         path = os.path.join(self.folder, "curves", curve["name"] + ".csv")
         table = read_table(path, ("frequency_Hz", "amplitude_m", "stable", "mark"))
         n_rows = len(table["mark"])
@@ -40,10 +43,10 @@ class Run:
             raise RunError(f"{shown(path)}: {n_rows} rows, summary.json counts {curve['points']} points: {AGAIN}")
         return table
 
-    def colour(self, load):
+    def colour(self, load: Any) -> Any:
         return self.colours[load] if is_number(load) else (FREE if load == "free" else STUCK)
 
-    def label(self, load):
+    def label(self, load: Any) -> str:
         if not is_number(load):
             return load
         if self.scaled:
@@ -51,7 +54,7 @@ class Run:
         return f"{plain(load)} N" if load >= 0 else f"gap ({plain(load)} N)"
 
 
-def first_map(run):
+def first_map(run: Run) -> str:
     """Name of the first contact map of a run; RunError without any."""
     names = [name for curve in run.summary["curves"] for name in curve["maps"]]
     if not names:

@@ -1,15 +1,18 @@
 """Page and plots of a run, each as far as it can be made."""
 
+from __future__ import annotations
+
 import os
 import sys
 import warnings
+from typing import Optional
 
 from microslip.files import RunError
 from microslip.report.page import write_page
 from microslip.results import Run, RunWarning
 
 
-def write_report_page(folder, into, summary=None):
+def write_report_page(folder: str, into: str, summary: Optional[str] = None) -> None:
     """INTO/report.html. RunError without a summary that can be read."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RunWarning)  # the page says it
@@ -17,7 +20,7 @@ def write_report_page(folder, into, summary=None):
     write_page(run, os.path.join(into, "report.html"))
 
 
-def draw_plots(folder, into):
+def draw_plots(folder: str, into: str) -> int:
     """INTO/plots. An exit code."""
     try:
         from microslip.plots.command import run_command
@@ -29,7 +32,7 @@ def draw_plots(folder, into):
     return run_command(plot_run, folder, os.path.join(into, "plots"))
 
 
-def report(folder, into=None, summary=None):
+def report(folder: str, into: Optional[str] = None, summary: Optional[str] = None) -> int:
     """Both. The exit code."""
     into = into or folder
     try:

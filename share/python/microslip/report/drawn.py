@@ -1,7 +1,10 @@
 """What the script of the page draws: curves, peaks and maps as plain numbers."""
 
+from __future__ import annotations
+
 import base64
 import os
+from typing import TYPE_CHECKING, Any, Callable, Dict, Mapping, Optional, Sequence
 
 import numpy as np
 
@@ -12,6 +15,10 @@ from microslip.files import RunError, trace_in
 from microslip.plots.numbers import is_number, length_unit, plain
 from microslip.states import STATES
 
+if TYPE_CHECKING:
+    from microslip.results import ContactMap, Curve, Run
+
+Entry = Dict[str, Any]  # of the page's data
 # (key, in a word, what the axis says, whether it is logarithmic)
 QUANTITIES = [
     ("amplitude", "amplitude", "response amplitude", True),
@@ -28,7 +35,7 @@ MOST_PHASES = 72
 MOST_BYTES = 6e6  # of maps in one page
 
 
-def colour(share):
+def colour(share: float) -> str:
     """Of a preload, by its place among them, 0 … 1."""
     place = share * (len(VIRIDIS) - 1)
     first = min(int(place), len(VIRIDIS) - 2)
@@ -36,18 +43,18 @@ def colour(share):
     return "#" + "".join(f"{value:02x}" for value in mixed)
 
 
-def numbers(values, digits=7):
+def numbers(values: Any, digits: int = 7) -> list[Optional[float]]:
     """For JSON: no more digits than are seen, null where there is no number."""
     return [float(f"{value:.{digits}g}") if np.isfinite(value) else None for value in np.asarray(values, dtype=float)]
 
 
-def gap_of(curve):
+def gap_of(curve: Curve) -> Optional[float]:
     """Width of the gap everywhere [µm]; None where there is none, or not one."""
     gap = curve.summary.get("gap_m")
     return 1e6 * gap if gap else None
 
 
-def label_of(curve):
+def label_of(curve: Curve) -> str:
     """What tells a curve from the others of its family."""
     if not is_number(curve.preload):
         return str(curve.preload)
@@ -59,7 +66,7 @@ def label_of(curve):
     return f"gap {gap:.3g} µm" if gap else f"gap ({plain(curve.preload)} N)"
 
 
-def ratio_to_free(table, free):
+def ratio_to_free(table: Mapping[str, Any], free: Mapping[str, Any]) -> np.ndarray:
     """Amplitude over that of the free curve at the same frequency; NaN outside of its range."""
     order = np.argsort(free["frequency_Hz"])
     at = np.interp(table["frequency_Hz"], free["frequency_Hz"][order], free["amplitude_m"][order], np.nan, np.nan)
@@ -67,7 +74,7 @@ def ratio_to_free(table, free):
         return np.where(at > 0, table["amplitude_m"] / at, np.nan)
 
 
-def columns_of(curve, free, size, damage):
+def columns_of(curve: Curve, free: Optional[Curve], size: float, damage: list[str]) -> dict[str, list[Optional[float]]]:
     """Values of every quantity the run has."""
     columns = {"amplitude": curve["amplitude_m"] / size}
     columns.update({name: factor * curve[name] for name, factor in
@@ -83,7 +90,7 @@ def columns_of(curve, free, size, damage):
     return {name: numbers(values) for name, values in columns.items()}
 
 
-def between(curve, size):
+def between(curve: Curve, size: float) -> dict[str, list[Optional[list[Optional[float]]]]]:
     """How the curve goes from each point to the next: two control points of a cubic, null for a gap."""
     drawn_as = {"amplitude": (AMPLITUDE, size), "phase_deg": (PHASE, 1.0)}
     ways = {}
@@ -94,7 +101,7 @@ def between(curve, size):
     return ways
 
 
-def curve_entry(curve, free, unit, shade, damage):
+def curve_entry(curve: Curve, free: Optional[Curve], unit: tuple[str, float], shade: str, damage: list[str]) -> Entry:
     """One curve as the script draws it."""
     name, size = unit
     bar, peak = curve.summary.get("bar"), curve.peak
@@ -113,7 +120,7 @@ def curve_entry(curve, free, unit, shade, damage):
     return entry
 
 
-def read_curves(run, damage):
+def read_curves(run: Run, damage: list[str]) -> list[Curve]:
     """The curves that can be read; of the others what is wrong."""
     curves = []
     for name in run.curves:
@@ -124,7 +131,7 @@ def read_curves(run, damage):
     return curves
 
 
-def shades_of(curves):
+def shades_of(curves: Sequence[Curve]) -> dict[str, str]:
     """Colour by name: the limits grey, preloads in order."""
     loads = sorted({curve.preload for curve in curves if is_number(curve.preload)})
     places = {load: i / max(len(loads) - 1, 1) for i, load in enumerate(loads)}
@@ -132,7 +139,7 @@ def shades_of(curves):
             for curve in curves}
 
 
-def trace_entry(run, size, damage):
+def trace_entry(run: Run, size: float, damage: list[str]) -> Optional[Entry]:
     """Peaks a search went over, value, amplitude and frequency, and the number it varied; None without a search."""
     optimum = run.optimum
     if not optimum:
@@ -151,20 +158,20 @@ def trace_entry(run, size, damage):
             "amplitude": numbers(trace[:, 2] / size), "best": best}
 
 
-def peak_entries(curves, shades, size):
+def peak_entries(curves: Sequence[Curve], shades: Mapping[str, str], size: float) -> list[Entry]:
     """The highest peak of every curve."""
     return [{"label": label_of(curve), "colour": shades[curve.name], "frequency": curve.peak["frequency_Hz"],
              "preload": curve.preload if is_number(curve.preload) else None, "gap": gap_of(curve), "amplitude": curve.peak["amplitude_m"] / size}
             for curve in curves if curve.peak]
 
 
-def bytes_of(values, low, high):
+def bytes_of(values: np.ndarray, low: float, high: float) -> str:
     """One byte per value, low … high as 0 … 255, in base64."""
     scaled = np.zeros(values.shape) if high <= low else 255.0 * (values - low) / (high - low)
     return base64.b64encode(np.round(np.clip(scaled, 0, 255)).astype(np.uint8).tobytes()).decode()
 
 
-def varying(contact, name, label, chosen, scale):
+def varying(contact: ContactMap, name: str, label: str, chosen: slice, scale: float) -> Entry:
     """An array over points and phases, its range in the unit of the label."""
     values = scale * contact[name][:, chosen]
     low = -np.abs(values).max() if values.min() < 0 else 0.0
@@ -172,7 +179,7 @@ def varying(contact, name, label, chosen, scale):
     return {"label": label, "low": float(low), "high": float(high), "data": bytes_of(values.T, low, high)}
 
 
-def loop_of(contact):
+def loop_of(contact: ContactMap) -> Entry:
     """Hysteresis of the whole patch along p: mean relative displacement [µm] and friction force [N], closed."""
     weights = contact["weights"]
     x = 1e6 * weights @ contact["relative_displacement_m"] / weights.sum()
@@ -181,21 +188,21 @@ def loop_of(contact):
             "phases": numbers(np.append(contact["phase_deg"], 360.0))}
 
 
-def words_of(values):
+def words_of(values: np.ndarray) -> Entry:
     """Two bytes per value in base64, and what a unit of them is."""
     largest = np.abs(values).max(initial=0.0)
     unit = largest / 32767.0 if largest > 0 else 1.0
     return {"unit": float(unit), "data": base64.b64encode(np.round(values / unit).astype("<i2").tobytes()).decode()}
 
 
-def cycles_of(contact, chosen):
+def cycles_of(contact: ContactMap, chosen: slice) -> list[Entry]:
     """Displacement [µm] and friction traction [MPa] of every point over the period, for its hysteresis loops along p and r."""
     return [{"along": along, "x": words_of(1e6 * contact[f"relative_displacement{part}_m"][:, chosen]),
              "y": words_of(1e-6 * contact[f"friction_traction{part}_Pa"][:, chosen])}
             for along, part in (("p", ""), ("r", "_r")) if f"friction_traction{part}_Pa" in contact]
 
 
-def vertices_of(contact, corners, cells):
+def vertices_of(contact: ContactMap, corners: np.ndarray, cells: np.ndarray) -> Optional[Vertices]:
     """What is known at the corners of the cells; None where it is not."""
     if not len(cells) or "vertex_state_starts_deg" not in contact:
         return None
@@ -204,13 +211,14 @@ def vertices_of(contact, corners, cells):
     return Vertices(corners, triangles_of(cells), contact["phase_deg"], contact["vertex_state"], starts, guards)
 
 
-def parted_entry(cells, polygons, states):
+def parted_entry(cells: list[int], polygons: Sequence[np.ndarray], states: list[int]) -> Entry:
     """Cells that are drawn part by part: the state of each part, how many corners it has, and all corners."""
     corners = np.concatenate(polygons) if polygons else np.zeros((0, 2))
     return {"cells": cells, "states": states, "sizes": [len(polygon) for polygon in polygons], "corners": words_of(corners.ravel())}
 
 
-def lines_over(contact, vertices, flat, numbers_chosen):
+def lines_over(contact: ContactMap, vertices: Optional[Vertices], flat: Callable[[Any], tuple[Any, ...]],
+               numbers_chosen: Sequence[int]) -> Entry:
     """What lies over the cells: those that boundaries part, boundaries of the states at each phase and of the period, arrows of slip."""
     over = {"boundaries": [], "parted": [], "period": {}, "arrows": []}
     if vertices is not None:
@@ -224,7 +232,7 @@ def lines_over(contact, vertices, flat, numbers_chosen):
     return over
 
 
-def map_entry(contact):
+def map_entry(contact: ContactMap) -> Entry:
     """A contact map: states and tractions at up to MOST_PHASES phases, sums over the period."""
     phases = contact["phase_deg"]
     chosen = slice(None, None, -(-len(phases) // MOST_PHASES))
@@ -232,7 +240,7 @@ def map_entry(contact):
     cells, corners = contact["cells"], 1e3 * contact["vertices"]
     names, on_its_side = ["p [mm]", "r [mm]"], len(cells) and np.ptp(corners[:, 1]) > np.ptp(corners[:, 0])
 
-    def flat(pair):
+    def flat(pair: Any) -> tuple[Any, ...]:
         """A long patch lies on its side."""
         return tuple(pair)[::-1] if on_its_side else tuple(pair)
 
@@ -253,7 +261,7 @@ def map_entry(contact):
     return entry
 
 
-def read_maps(run, damage):
+def read_maps(run: Run, damage: list[str]) -> list[Entry]:
     """The maps a page has room for."""
     maps, room = [], MOST_BYTES
     for name in run.maps:
@@ -271,7 +279,7 @@ def read_maps(run, damage):
     return maps
 
 
-def drawn(run, damage):
+def drawn(run: Run, damage: list[str]) -> Entry:
     """Everything that is drawn; sentences about what cannot be are added to `damage`."""
     curves = read_curves(run, damage)
     free = next((curve for curve in curves if curve.preload == "free"), None)

@@ -1,29 +1,35 @@
 """The page: sections in order, warnings first, and the data its script draws."""
 
+from __future__ import annotations
+
 import html
 import json
 import os
+from typing import TYPE_CHECKING, Any
 
 from microslip.files import write_whole
 from microslip.report.drawn import drawn
 from microslip.report.sections import SECTIONS, problems_of
+
+if TYPE_CHECKING:
+    from microslip.results import Run
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 # Nothing is loaded from anywhere, whatever a title or a message may say.
 POLICY = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:"
 
 
-def part(name):
+def part(name: str) -> str:
     with open(os.path.join(HERE, name), encoding="utf-8") as file:
         return file.read()
 
 
-def data_text(data):
+def data_text(data: Any) -> str:
     """JSON that may stand in a page: no text in it ends the script."""
     return json.dumps(data, separators=(",", ":"), allow_nan=False).replace("</", "<\\/").replace("<!--", "<\\!--")
 
 
-def page(run):
+def page(run: Run) -> str:
     """The whole text of report.html."""
     damage = []
     data = drawn(run, damage)
@@ -44,6 +50,6 @@ def page(run):
             f'<script>\n{part("chart.js")}{part("page.js")}</script></body></html>\n')
 
 
-def write_page(run, path):
+def write_page(run: Run, path: str) -> None:
     """report.html, whole or not at all."""
     write_whole(path, page(run).encode("utf-8"))

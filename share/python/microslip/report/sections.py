@@ -1,9 +1,18 @@
 """The sections of the page that are read: tables, and the places where the script draws."""
 
+from __future__ import annotations
+
 from html import escape
+from typing import TYPE_CHECKING, Any, Iterator, Mapping, Optional, Sequence
 
 from microslip.files import RunError
 from microslip.plots.numbers import LENGTHS, is_number, plain, with_half_width
+
+if TYPE_CHECKING:
+    from microslip.results import Run
+
+Row = Sequence[str]  # cells
+Data = Mapping[str, Any]  # what the script draws
 
 UNITS = {"youngs_modulus": "Pa", "density": "kg/m³", "element_size": "m", "length": "m", "area": "m²", "amplitude": "N",
          "phase": "°", "normal_stiffness": "N/m³", "tangential_stiffness": "N/m³", "tangential_stiffness_r": "N/m³",
@@ -21,31 +30,31 @@ LENGTH = dict(LENGTHS)
 LONGEST = 300  # characters of a value
 
 
-def table(head, rows, right=(), kind=""):
+def table(head: Optional[Row], rows: Sequence[Row], right: Sequence[int] = (), kind: str = "") -> str:
     """An HTML table of cells that are HTML already; numbers of the columns that are set right; its name in page.css."""
-    def cells(row, tag):
+    def cells(row: Row, tag: str) -> str:
         return "".join(f'<{tag}{" class=n" if i in right else ""}>{cell}</{tag}>' for i, cell in enumerate(row))
     top = f"<thead><tr>{cells(head, 'th')}</tr></thead>" if head else ""
     body = "".join(f"<tr>{cells(row, 'td')}</tr>" for row in rows)
     return f'<div class="wide {kind}"><table>{top}<tbody>{body}</tbody></table></div>'
 
 
-def number(value, digits=5):
+def number(value: Any, digits: int = 5) -> str:
     return plain(float(f"{value:.{digits}g}")) if is_number(value) else "–"
 
 
-def told_with(bar, goal, value, digits=5):
+def told_with(bar: Mapping[str, Any], goal: str, value: Any, digits: int = 5) -> str:
     """A value with its half width, where the bar of its goal is known."""
     return with_half_width(value, bar.get(goal), digits) if is_number(value) else "–"
 
 
-def percent(value, digits=2):
+def percent(value: Any, digits: int = 2) -> str:
     if not is_number(value):
         return "–"
     return f"{100 * value:.{digits}g} %" if value >= 1e-5 else "< 0.001 %"
 
 
-def value_text(value, unit=""):
+def value_text(value: Any, unit: str = "") -> str:
     """A value of the scene in words: tables as key value, …; the unit of its numbers behind a list of numbers, or behind each."""
     if isinstance(value, list) and unit and not all(map(is_number, value)):
         return ", ".join(value_text(item, unit) for item in value)
@@ -59,13 +68,13 @@ def value_text(value, unit=""):
     return number(value, 7) if is_number(value) and not isinstance(value, bool) else str(value)
 
 
-def setting_row(key, value):
+def setting_row(key: str, value: Any) -> list[str]:
     text = value_text(value, f" {UNITS[key]}" if key in UNITS else "")
     text = text if len(text) <= LONGEST else f"{len(value) if isinstance(value, list) else 'many'} entries (scene.toml)"
     return [escape(key.replace("_", " ")), escape(text)]
 
 
-def parts_of(scene):
+def parts_of(scene: Mapping[str, Any]) -> Iterator[tuple[str, Mapping[str, Any]]]:
     """(name, table) of the sections; [[contact]] one by one."""
     for name, content in scene.items():
         if isinstance(content, dict):
@@ -74,13 +83,13 @@ def parts_of(scene):
             yield from ((f"{name} {item.get('name', i + 1)}", item) for i, item in enumerate(content))
 
 
-def harmonics_used(run):
+def harmonics_used(run: Run) -> str:
     """What the curves were solved with."""
     most = max(((entry.get("harmonics") or {}).get("most") or 0 for entry in run.summary["curves"]), default=0)
     return f"{most} at most" if most else ""
 
 
-def asked(run, data):
+def asked(run: Run, data: Data) -> str:
     try:
         scene = run.scene
     except RunError as error:
@@ -100,12 +109,12 @@ def asked(run, data):
             "quarter of a period late.</p>")
 
 
-def told(value, digits=2):
+def told(value: Any, digits: int = 2) -> str:
     """An indicator: a number, "infinite", or nothing."""
     return "∞" if value == "infinite" else number(value, digits)
 
 
-def effect_row(row):
+def effect_row(row: Mapping[str, Any]) -> list[str]:
     simulated = {True: "yes", False: "no"}.get(row.get("simulated"), "not decided")
     bound, why = row.get("bound"), escape(str(row.get("reason", "")))
     if bound is not None:
@@ -118,7 +127,7 @@ def effect_row(row):
             told(row.get("threshold")), f"{number(seconds, 2)} s" if is_number(seconds) else "–", why]
 
 
-def effects(run, data):
+def effects(run: Run, data: Data) -> str:
     rows = [effect_row(row) for row in run.summary.get("effects") or []]
     head = ["effect", "simulated", "setting", "indicator", "limit", "cost", "why"]
     return "" if not rows else (table(head, rows, (3, 4, 5), "effects") +
@@ -127,7 +136,7 @@ def effects(run, data):
                      "longer, forecast; –: not told apart.</p>")
 
 
-def state_of(curve):
+def state_of(curve: Mapping[str, Any]) -> str:
     """Complete or not, and what of its stability is not known."""
     parts = ["complete" if curve.get("complete") else f"<b>incomplete</b>: {escape(str(curve.get('diagnosis', '')))}"]
     if curve.get("detached_branches"):
@@ -135,7 +144,7 @@ def state_of(curve):
     return "; ".join(parts)
 
 
-def unjudged(data, name):
+def unjudged(data: Data, name: str) -> str:
     """How many solutions of a curve have a stability nobody has judged; at a fold there is none to judge."""
     entry = next((entry for entry in data["curves"] if entry["name"] == name), {"stable": [], "mark": []})
     stable = [value for value, mark in zip(entry["stable"], entry["mark"]) if mark != "fold"]
@@ -143,12 +152,12 @@ def unjudged(data, name):
     return f"{missing} of {len(stable)}" if missing else "0"
 
 
-def free_peak(run):
+def free_peak(run: Run) -> Optional[float]:
     return next((curve["peak"]["amplitude_m"] for curve in run.summary["curves"]
                  if curve.get("preload_N") == "free" and curve.get("peak")), None)
 
 
-def preload_text(curve, unit=""):
+def preload_text(curve: Mapping[str, Any], unit: str = "") -> str:
     """Force or scale; the unit stands behind a force."""
     scale = curve.get("preload_scale")
     value = curve.get("preload_N") if scale is None else scale
@@ -158,7 +167,7 @@ def preload_text(curve, unit=""):
     return number(value) + (unit if scale is None else "") + (f" (gap {number(1e6 * gap, 3)} µm)" if gap else "")
 
 
-def peaks(run, data):
+def peaks(run: Run, data: Data) -> str:
     reference, size = free_peak(run), LENGTH[data["unit"]]
     rows = []
     for curve in run.summary["curves"]:
@@ -176,7 +185,7 @@ def peaks(run, data):
     return table(head, rows, (0, 1, 2, 3, 4, 6)) if rows else ""
 
 
-def optimum(run, data):
+def optimum(run: Run, data: Data) -> str:
     best = run.optimum
     if not best:
         return ""
@@ -189,7 +198,7 @@ def optimum(run, data):
             f"{told_with(bar, 'best_frequency', best['frequency_Hz'], 6)} Hz.</p>")
 
 
-def response(run, data):
+def response(run: Run, data: Data) -> str:
     if not data["curves"]:
         return ""
     chart = ('<div class=tools data-tools=curves></div><div class=chart data-chart=curves></div>'
@@ -200,7 +209,7 @@ def response(run, data):
     return optimum(run, data) + (chart if many else "") + peaks(run, data)
 
 
-def against(run, data):
+def against(run: Run, data: Data) -> str:
     """Peak against preload, or against what a search has varied."""
     family = [peak for peak in data["peaks"] if peak["preload"] is not None]
     if len(family) + len((data["trace"] or {}).get("value", ())) < 2:
@@ -208,7 +217,7 @@ def against(run, data):
     return "<div class=charts data-chart=peaks></div>"
 
 
-def maps(run, data):
+def maps(run: Run, data: Data) -> str:
     if not data["maps"]:
         return ""
     return ('<div class=tools data-tools=maps></div><div class=map data-chart=maps></div>'
@@ -220,11 +229,11 @@ def maps(run, data):
             'where the slider stands. Where the whole face moves alike, the area of the loop is the energy of a period.</p>')
 
 
-def signed(value):
+def signed(value: float) -> str:
     return f"{value:+.2g}".replace("-", "−")
 
 
-def bars_of(rows):
+def bars_of(rows: Sequence[Mapping[str, Any]]) -> str:
     """Effects on one goal of one curve, the largest first, as bars from a hundredth of a percent."""
     worst = max(abs(row["effect"]) for row in rows) or 1.0
     lines = ""
@@ -235,7 +244,7 @@ def bars_of(rows):
     return lines
 
 
-def asked_accuracy(run):
+def asked_accuracy(run: Run) -> str:
     """What was asked for, what was reached and by what; empty without a tolerance."""
     accuracy = run.summary.get("accuracy")
     if not accuracy:
@@ -247,7 +256,7 @@ def asked_accuracy(run):
     return f"<p>{'; '.join(words)}.</p>"
 
 
-def energy_bars(curve, rows):
+def energy_bars(curve: Mapping[str, Any], rows: Sequence[Mapping[str, Any]]) -> str:
     """What the highest peak dissipates in a period, with what makes its half width."""
     energy, bar = (curve.get("peak") or {}).get("dissipated_energy_J"), curve["bar"].get("dissipated_energy")
     if not is_number(energy):
@@ -257,7 +266,7 @@ def energy_bars(curve, rows):
     return f"<h3>dissipated {with_half_width(energy, bar)} J ± {percent(bar)}</h3>" + (bars_of(rows) if rows else "")
 
 
-def budget(run, data):
+def budget(run: Run, data: Data) -> str:
     text = ""
     for curve in run.summary["curves"]:
         rows, of_energy = ([row for row in run.summary.get("error_budget") or []
@@ -276,7 +285,7 @@ def budget(run, data):
                      f"its end.</p><div class=budgets>{text}</div>")
 
 
-def structure(run, data):
+def structure(run: Run, data: Data) -> str:
     mesh = run.summary.get("mesh")
     text = ""
     if mesh:
@@ -287,7 +296,7 @@ def structure(run, data):
     return text + table(["mode", "frequency [Hz]", "damping ratio", "kind"], rows, (0, 1, 2))
 
 
-def cost(run, data):
+def cost(run: Run, data: Data) -> str:
     stages = run.summary.get("stages") or []
     rows = [[escape(stage["name"]), f"{stage['seconds']:.2f}", f"{stage['peak_memory_MB']:.0f}"]
             for stage in stages if stage["name"] != "report"]  # this page is part of it
@@ -301,7 +310,7 @@ SECTIONS = [("Response", response), ("Peak against preload", against), ("Contact
             ("Structure", structure), ("Cost", cost)]
 
 
-def problems_of(run, damage):
+def problems_of(run: Run, damage: Sequence[str]) -> str:
     """What a reader must know before anything else."""
     lines = []
     if run.exit_code:
