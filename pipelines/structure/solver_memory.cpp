@@ -1,5 +1,7 @@
 #include "pipelines/structure/solver_memory.hpp"
 
+#include <string_view>
+
 #include <fmt/format.h>
 
 #include "fem/memory_forecast.hpp"
@@ -32,7 +34,7 @@ std::string memory_warning(const SolverMemory& memory) {
                                  direct ? "direct" : "iterative", gigabytes(memory.needed_mb()),
                                  gigabytes(available), memory.available.limited_by);
   if (direct && memory.iterative_mb < available) {
-    text += fmt::format("; modes.solver = \"iterative\" needs about {}",
+    text += fmt::format("; use the iterative solver: modes.solver = \"iterative\" needs about {}",
                         gigabytes(memory.iterative_mb));
   }
   return text + "; or take a coarser mesh or a machine with more memory";
@@ -43,6 +45,15 @@ void require_memory(const mesh::Mesh& mesh, fem::SolverKind solver) {
   SolverMemory memory = solver_memory(mesh, solver);
   if (at_least * memory.needed_mb() <= memory.available.megabytes) return;
   throw fem::MemoryError("out of memory: " + memory_warning(memory));
+}
+
+std::string with_iterative_way(std::string text) {
+  constexpr std::string_view key = "modes.solver = \"iterative\"";
+  if (text.find(key) != std::string::npos) return text;
+  if (text.ends_with('.')) text.pop_back();
+  const bool is_named = text.find("iterative solver") != std::string::npos;
+  return text.append(is_named ? "; the iterative solver is " : "; use the iterative solver: ")
+      .append(key);
 }
 
 }  // namespace microslip::pipelines

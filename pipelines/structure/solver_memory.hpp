@@ -35,4 +35,7 @@ struct SolverMemory {
 ///         available. In between the factorisation asks once more, when MUMPS knows what it needs.
 void require_memory(const mesh::Mesh& mesh, fem::SolverKind solver);
 
+/// What the direct way has ended with, with the way that takes less memory and its key.
+[[nodiscard]] std::string with_iterative_way(std::string text);
+
 }  // namespace microslip::pipelines

@@ -1,5 +1,6 @@
 #include "pipelines/structure/structure_stage.hpp"
 
+#include <new>
 #include <set>
 #include <utility>
 #include <vector>
@@ -143,13 +144,26 @@ std::string arithmetic() {
   return text;
 }
 
+/// Instead of the direct one it was to be solved by.
+bool has_iterative_way(const StructureTask& task) {
+  return task.basis.solver == fem::SolverKind::direct && !task.rotation;
+}
+
 StructureModes solve_on_all_ranks(const StructureTask& task) {
   require_count(task);
   require_memory(task.mesh, task.basis.solver);
   require_time(task.mesh, task.basis.n_modes);
   StructureModes modes;
-  on_all_ranks(
-      modes_work, [&] { return bytes_of(task); }, [&] { modes = solve(task); });
+  try {
+    on_all_ranks(
+        modes_work, [&] { return bytes_of(task); }, [&] { modes = solve(task); });
+  } catch (const fem::MemoryError& error) {
+    if (!has_iterative_way(task)) throw;
+    throw fem::MemoryError(with_iterative_way(error.what()));
+  } catch (const std::bad_alloc&) {
+    if (!has_iterative_way(task)) throw;
+    throw fem::MemoryError(with_iterative_way("out of memory"));
+  }
   return modes;
 }
 

@@ -2,6 +2,7 @@
 #include "pipelines/structure/solver_memory.hpp"
 
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -45,8 +46,9 @@ TEST(SolverMemory, BeyondWhatThereIsIsRefusedAndTheOtherWayOffered) {
   const SolverMemory memory = solver_memory(cube(), SolverKind::direct);
   const test::Room room(0.5 * (memory.iterative_mb + 0.7 * memory.direct_mb));
   const std::string text = complaint(SolverKind::direct);
-  for (const char* part : {"out of memory: modes.solver = \"direct\" needs about", "ulimit -v",
-                           "modes.solver = \"iterative\" needs about", "coarser mesh"}) {
+  for (const char* part :
+       {"out of memory: modes.solver = \"direct\" needs about", "ulimit -v",
+        "use the iterative solver: modes.solver = \"iterative\" needs about", "coarser mesh"}) {
     EXPECT_NE(text.find(part), std::string::npos) << part << " in: " << text;
   }
   EXPECT_EQ(complaint(SolverKind::iterative), "");
@@ -60,6 +62,19 @@ TEST(SolverMemory, BeyondBothOffersNeither) {
   EXPECT_EQ(complaint(SolverKind::direct).find("\"iterative\""), std::string::npos);
   EXPECT_NE(complaint(SolverKind::iterative).find("modes.solver = \"iterative\" needs about"),
             std::string::npos);
+}
+
+TEST(SolverMemory, WhatEndedInTheSolverNamesTheOtherWayOnce) {
+  for (const auto& [text, told] :
+       {std::pair("out of memory",
+                  "out of memory; use the iterative solver: modes.solver = \"iterative\""),
+        std::pair("out of memory: 9 MB are needed. Use the iterative solver or a coarser mesh.",
+                  "out of memory: 9 MB are needed. Use the iterative solver or a coarser mesh; the "
+                  "iterative solver is modes.solver = \"iterative\""),
+        std::pair("modes.solver = \"iterative\" needs about 1 GB",
+                  "modes.solver = \"iterative\" needs about 1 GB")}) {
+    EXPECT_EQ(with_iterative_way(text), told);
+  }
 }
 
 TEST(SolverMemory, ThatIsThereIsNotComplainedAbout) {
