@@ -444,6 +444,15 @@ class Page(Case):
         self.assertEqual(self.measured(text, beyond, 420), "0")  # [px]
         height = "document.querySelector('details').offsetHeight"
         on_paper = text.replace("@media print", "@media screen")
+        styles = ("(s => [s(document.querySelector('.bar i')).printColorAdjust, s(document.querySelector('.effects tbody tr')).breakInside,"
+                  "s(document.querySelector('.effects thead')).display, s(document.querySelector('.effects')).overflowX].join())(getComputedStyle)")
+        self.assertEqual(self.measured(on_paper, styles, 718), "exact,avoid,table-header-group,visible")
+        beyond_paper = "Math.max(...[...document.querySelectorAll('.wide')].map(t => t.scrollWidth - t.clientWidth))"
+        self.assertLessEqual(float(self.measured(on_paper, beyond_paper, 718)), 0)  # [px] of A4
+        split = ("[...document.querySelectorAll('.effects tbody td:not(:last-child)')].filter(cell => { const r = document.createRange();"
+                 "r.selectNodeContents(cell); return r.getClientRects().length > cell.textContent.split(' ').length + cell.children.length; })"
+                 ".length")
+        self.assertEqual(self.measured(on_paper, split, 718), "0")  # no more lines than words
         folded, unfolded = (float(self.measured(page, height, 1200)) for page in (text, on_paper))
         self.assertGreater(unfolded, 5 * folded)
 
