@@ -3,7 +3,9 @@
 /// PETSC_COMM_WORLD; results are complete on every rank.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,10 +23,16 @@
 
 namespace microslip::fem {
 
+/// When the modes are counted that the search may have missed: as they are found, or by
+/// count_modes(), when the factorisation is no longer needed and does not lie in memory beside that
+/// of the count.
+enum class CountTime : std::uint8_t { at_once, at_the_end };
+
 struct ModalOptions {
   Eigen::Index n_modes = 10;  ///< ≥ 1; rigid-body modes count
   double residual_tolerance =
       1e-8;  ///< of each pair, checked, plus what rounding of φ alone leaves
+  CountTime count = CountTime::at_once;
 };
 
 /// Where the time went [s].
@@ -71,6 +79,11 @@ class Structure {
   /// @throws EigenError  fewer modes than asked, a pair not accurate, a missed mode, more zero
   ///         modes than a free body has or a mechanism inside it; with numbers.
   [[nodiscard]] ModalBasis solve_modes(const ModalOptions& options);
+  /// The count that solve_modes() has put off. The factorisation is given up; the next question
+  /// makes it anew.
+  /// @return ModalBasis::inertia_count. Empty: the search has missed some; solve_modes() that
+  ///         counts at once finds them.
+  [[nodiscard]] std::optional<Eigen::Index> count_modes();
   /// Displacement under loads: columns of F (3 n_nodes × m) [N] → u (3 n_nodes × m) [m].
   /// @throws EigenError  rigid-body modes: K is singular.
   [[nodiscard]] Eigen::MatrixXd solve_static(const Eigen::MatrixXd& forces);

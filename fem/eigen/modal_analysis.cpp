@@ -95,11 +95,12 @@ struct Structure::Implementation {
   Tet10Rule rule = Tet10Rule::accurate;
   SolverKind kind = SolverKind::direct;
   Eigen::VectorXd displacement{};  // of the body as it rotates, 3 n_nodes [m]; empty: it does not
+  CountedPairs uncounted{};        // of the last search, without its pairs
 
   void prepare();
   void prepare(Mat matrix);
   [[nodiscard]] Eigen::MatrixX3d own_nodes() const;
-  [[nodiscard]] CountedPairs search(Eigen::Index n_elastic);
+  [[nodiscard]] CountedPairs search(Eigen::Index n_elastic, CountTime when);
   [[nodiscard]] Eigen::MatrixXd solve_elastic(const Eigen::MatrixXd& loads,
                                               const Eigen::MatrixXd& kept) const;
   [[nodiscard]] Eigen::MatrixXd elastic_modes(const ModalBasis& basis) const;
@@ -143,10 +144,11 @@ Eigen::MatrixX3d Structure::Implementation::own_nodes() const {
   return own;
 }
 
-CountedPairs Structure::Implementation::search(Eigen::Index n_elastic) {
-  CountedPairs found =
-      find_elastic_modes(system, *inverse, shift, n_elastic, rigid,
-                         kind == SolverKind::direct ? ModeCount::by_inertia : ModeCount::none);
+CountedPairs Structure::Implementation::search(Eigen::Index n_elastic, CountTime when) {
+  const ModeCount counting = kind == SolverKind::iterative   ? ModeCount::none
+                             : when == CountTime::at_the_end ? ModeCount::later
+                                                             : ModeCount::by_inertia;
+  CountedPairs found = find_elastic_modes(system, *inverse, shift, n_elastic, rigid, counting);
   timings.eigensolve += found.search_seconds;
   timings.inertia += found.inertia_seconds;
   return found;
@@ -343,7 +345,8 @@ ModalBasis Structure::solve_modes(const ModalOptions& options) {
                      " zero modes, a free body has six: the mesh has loose parts");
   }
   self.prepare();
-  CountedPairs found = self.search(std::max<Eigen::Index>(options.n_modes - n_rigid, 0));
+  CountedPairs found =
+      self.search(std::max<Eigen::Index>(options.n_modes - n_rigid, 0), options.count);
   if (const Eigen::Index n_zero = count_zero(found.pairs.values); n_zero > 0) {
     throw EigenError(
         "mechanism: " + std::to_string(n_rigid + n_zero) + " zero modes, " +
@@ -352,7 +355,21 @@ ModalBasis Structure::solve_modes(const ModalOptions& options) {
   }
   ModalBasis basis = self.basis_from(found, options.n_modes);
   self.check_residuals(basis, options.residual_tolerance);
+  found.pairs = {};
+  self.uncounted = std::move(found);
   return basis;
+}
+
+std::optional<Eigen::Index> Structure::count_modes() {
+  Implementation& self = *self_;
+  if (self.kind == SolverKind::iterative) return -1;
+  const auto start = std::chrono::steady_clock::now();
+  self.inverse.reset();
+  const Eigen::Index counted = count_below(self.system, self.uncounted.count_shift);
+  self.timings.inertia +=
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (counted != self.rigid.cols() + self.uncounted.n_below) return std::nullopt;
+  return counted;
 }
 
 Eigen::MatrixXd Structure::solve_static(const Eigen::MatrixXd& forces) {

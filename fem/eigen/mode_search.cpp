@@ -73,12 +73,6 @@ void add_same_pattern(Mat Y, double a, Mat X) {
       MatAXPY(Y, a, X, is_parallel == PETSC_TRUE ? SUBSET_NONZERO_PATTERN : SAME_NONZERO_PATTERN));
 }
 
-Eigen::Index count_below(const FeSystem& system, double shift) {
-  return Factorisation(shifted_stiffness(system, shift).get(), FactorKind::inertia_only)
-      .inertia()
-      .negative;
-}
-
 [[noreturn]] void report_missed(Eigen::Index found, Eigen::Index counted, double shift) {
   throw EigenError("eigen-missed-mode: " + std::to_string(found) +
                    " modes found below omega^2 = " + number_text(shift) +
@@ -95,6 +89,12 @@ MatHandle shifted_stiffness(const FeSystem& system, double shift) {
   return shifted;
 }
 
+Eigen::Index count_below(const FeSystem& system, double shift) {
+  return Factorisation(shifted_stiffness(system, shift).get(), FactorKind::inertia_only)
+      .inertia()
+      .negative;
+}
+
 CountedPairs find_elastic_modes(const FeSystem& system, const LinearSolver& inverse, double shift,
                                 Eigen::Index n, const Eigen::MatrixXd& rigid, ModeCount counting) {
   constexpr int max_rounds = 5;
@@ -109,8 +109,9 @@ CountedPairs find_elastic_modes(const FeSystem& system, const LinearSolver& inve
     result.search_seconds += watch.lap();
     return more.beyond;
   };
-  const auto count = [&](double count_shift) {
+  const auto place_count = [&](double count_shift) {
     result.count_shift = count_shift;
+    if (counting == ModeCount::later) return;
     result.n_counted = count_below(system, count_shift);
     result.inertia_seconds += watch.lap();
   };
@@ -122,10 +123,11 @@ CountedPairs find_elastic_modes(const FeSystem& system, const LinearSolver& inve
     Eigen::Index n_missing = 1;  // none is, but the gap is not seen yet
     if (!gap) {
       gap = shift_in_gap(result.pairs.values, beyond, n, space);
-      if (gap) count(*gap);
+      if (gap) place_count(*gap);
     }
     if (gap) {
       result.n_below = (result.pairs.values.array() < *gap).count();
+      if (counting == ModeCount::later) return result;
       n_missing = result.n_counted - rigid.cols() - result.n_below;
       if (n_missing == 0) return result;
       if (n_missing < 0) break;

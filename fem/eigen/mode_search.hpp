@@ -30,10 +30,14 @@ struct CountedPairs {
 };
 
 /// Whether modes are counted: that takes a factorisation, which an iterative solution does without.
-enum class ModeCount : std::uint8_t { by_inertia, none };
+/// Later: `count_shift` and `n_below` tell what a count must give.
+enum class ModeCount : std::uint8_t { by_inertia, later, none };
 
 /// K − shift M, same pattern.
 [[nodiscard]] MatHandle shifted_stiffness(const FeSystem& system, double shift);
+
+/// Eigenvalues below σ, by a factorisation of its own.
+[[nodiscard]] Eigen::Index count_below(const FeSystem& system, double shift);
 
 /// @param rigid  M-orthonormal rigid-body modes, rows of this rank × n_rigid.
 /// @param n      elastic modes wanted, ≥ 0.

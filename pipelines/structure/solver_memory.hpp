@@ -13,7 +13,7 @@ namespace microslip::pipelines {
 
 struct SolverMemory {
   fem::SolverKind solver = fem::SolverKind::direct;
-  /// Forecast, up to 40 % more than is used in the end; beside the program, which is there already.
+  /// Forecast, up to 60 % more than is used in the end; beside the program, which is there already.
   double direct_mb = 0.0;
   double iterative_mb = 0.0;  ///< the same
   fem::AvailableMemory available;

@@ -122,6 +122,34 @@ void rotate(fem::Structure& structure, const StructureTask& task, StructureModes
                   u.reshaped(3, task.mesh.n_nodes()).colwise().norm().maxCoeff()));
 }
 
+/// Modes and what stands for the others.
+void find_modes(fem::Structure& structure, const StructureTask& task, fem::CountTime count,
+                StructureModes& result) {
+  fem::ModalOptions options;
+  options.n_modes = task.basis.n_modes;
+  options.count = count;
+  result.basis = structure.solve_modes(options);
+  result.residuals.clear();
+  if (task.basis.residual == ResidualKind::stiffness) {
+    for (const TaskFace& face : task.faces) {
+      result.residuals.push_back(
+          structure.residual_flexibility(result.basis, face.surface, face.frame));
+    }
+  }
+  if (!task.faces.empty() && task.basis.residual == ResidualKind::attachment) {
+    attach(structure, task, result);
+  }
+}
+
+/// False: some were missed.
+bool count_modes(fem::Structure& structure, StructureModes& result) {
+  const std::optional<Eigen::Index> count = structure.count_modes();
+  if (!count) return false;
+  result.basis.inertia_count = *count;
+  if (result.richer) result.richer->basis.inertia_count = *count;
+  return true;
+}
+
 }  // namespace
 
 Eigen::MatrixXd loads_as_shapes(const Eigen::MatrixXd& loads) {
@@ -176,17 +204,9 @@ StructureModes solve(const StructureTask& task) {
   result.n_dofs = structure.n_dofs();
   result.mass = structure.mass();
   if (task.rotation) rotate(structure, task, result);
-  fem::ModalOptions options;
-  options.n_modes = task.basis.n_modes;
-  result.basis = structure.solve_modes(options);
-  if (task.basis.residual == ResidualKind::stiffness) {
-    for (const TaskFace& face : task.faces) {
-      result.residuals.push_back(
-          structure.residual_flexibility(result.basis, face.surface, face.frame));
-    }
-  }
-  if (!task.faces.empty() && task.basis.residual == ResidualKind::attachment) {
-    attach(structure, task, result);
+  find_modes(structure, task, fem::CountTime::at_the_end, result);
+  if (!count_modes(structure, result)) {
+    find_modes(structure, task, fem::CountTime::at_once, result);
   }
   result.timings = structure.timings();
   return result;
