@@ -16,6 +16,7 @@ class BranchFactors {
 
   /// Where the factors were made, at less than 90° to their row.
   [[nodiscard]] Tangent tangent() const;
+  [[nodiscard]] const Scaling& scaling() const { return scaling_; }
   /// [∂R/∂y; row]⁻¹ f. @param f, row  in variables of `scaling`; n + 1 numbers each.
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& f, const BranchVector& row,
                                       const Scaling& scaling) const;

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "contact/dense.hpp"
+#include "solver/balance/branch_factors.hpp"
 #include "solver/balance/output_amplitude.hpp"
 #include "solver/balance/period_energy.hpp"
 
@@ -18,13 +19,22 @@ std::complex<double> first_harmonic(const Harmonics& motion, const Eigen::Vector
   return {motion.sine().dot(output), motion.cosine().dot(output)};
 }
 
+/// dx/dω, by factors where some are at hand.
+Eigen::VectorXd motion_by_frequency(const NewtonResult& at) {
+  if (!at.factors) {
+    return -contact::solved(at.evaluation.jacobian, at.evaluation.parameter_derivative);
+  }
+  const BranchVector tangent = at.factors->tangent().direction;
+  const Scaling& scaling = at.factors->scaling();
+  return tangent.x * (scaling.x / (tangent.parameter * scaling.parameter));
+}
+
 /// Along (dx/dω, 1), the null vector of [∂R/∂x, ∂R/∂ω]. Empty: ∂R/∂x is singular, or nothing moves.
 std::optional<BranchSlope> branch_slope(const HarmonicBalance& balance, const NewtonResult& at,
                                         const Harmonics& q, const OutputAmplitude& output) {
   if (!(output.first_harmonic > 0.0)) return std::nullopt;
   const Eigen::VectorXd& signal = balance.scene().output;
-  const Harmonics change = balance.harmonics(
-      -contact::solved(at.evaluation.jacobian, at.evaluation.parameter_derivative));
+  const Harmonics change = balance.harmonics(motion_by_frequency(at));
   if (!change.rows().allFinite()) return std::nullopt;
   return BranchSlope{.amplitude = output.gradient.dot(change.vector()),
                      .phase = (first_harmonic(change, signal) / first_harmonic(q, signal)).imag()};
