@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -75,12 +76,17 @@ double angle(const BranchVector& a, const BranchVector& b) {
   return std::acos(std::clamp(dot(a, b) / std::sqrt(dot(a, a) * dot(b, b)), -1.0, 1.0));
 }
 
+/// Places of a step that have been solved for, by their shares of the way.
+using Places = std::map<double, StepPoint>;
+
 class Segment {
  public:
-  Segment(BranchWalker& walker, HarmonicBalance& balance, PointMark kind)
+  /// @param places  borrowed: of the same step, looked up first and added to.
+  Segment(BranchWalker& walker, HarmonicBalance& balance, PointMark kind, Places& places)
       : walker_(walker),
         balance_(balance),
         kind_(kind),
+        places_(places),
         most_splits_(walker.is_sampled() ? max_splits_of_sampled : max_splits),
         most_failed_(walker.is_sampled() ? most_failed_of_sampled : most_failed),
         slight_turn_(walker.is_sampled() ? slight_turn_of_sampled : slight_turn) {}
@@ -160,6 +166,7 @@ class Segment {
   }
 
   [[nodiscard]] std::optional<Node> between(const Node& a, const Node& b, double share) {
+    if (const auto known = places_.find(share); known != places_.end()) return node(known->second);
     if (n_failed_ >= most_failed_) return std::nullopt;
     auto point = walker_.between(a.at, b.at, share);
     if (!point) {
@@ -167,6 +174,7 @@ class Segment {
       return std::nullopt;
     }
     if (!walker_.is_sampled()) n_failed_ = 0;
+    places_.emplace(share, *point);
     return node(std::move(*point));
   }
 
@@ -341,6 +349,7 @@ class Segment {
   BranchWalker& walker_;  ///< counts what the search costs
   HarmonicBalance& balance_;
   PointMark kind_;
+  Places& places_;
   int most_splits_;
   int most_failed_;
   double slight_turn_;
@@ -352,16 +361,18 @@ class Segment {
 }  // namespace
 
 std::vector<SpecialPoint> peaks_between(BranchWalker& walker, HarmonicBalance& balance) {
-  return Segment(walker, balance, PointMark::peak).search();
+  Places places;
+  return Segment(walker, balance, PointMark::peak, places).search();
 }
 
 std::vector<SpecialPoint> special_points(BranchWalker& walker, HarmonicBalance& balance) {
-  Segment peaks(walker, balance, PointMark::peak);
+  Places places;
+  Segment peaks(walker, balance, PointMark::peak, places);
   std::vector<SpecialPoint> found = peaks.search();
   if (!found.empty()) {
     for (SpecialPoint& valley : peaks.valleys()) found.push_back(std::move(valley));
   }
-  for (SpecialPoint& fold : Segment(walker, balance, PointMark::fold).search()) {
+  for (SpecialPoint& fold : Segment(walker, balance, PointMark::fold, places).search()) {
     found.push_back(std::move(fold));
   }
   std::sort(found.begin(), found.end(),
