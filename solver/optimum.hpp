@@ -22,11 +22,12 @@ struct Optimum {
   /// `best` is then one of many.
   std::optional<std::array<double, 2>> flat;
   std::string objection;  ///< why not found; empty: found
-  /// The objection, the interval that is as good to 1 % among the values solved for, minima nearly
-  /// as good elsewhere, and whether an end of the frequency range counts.
+  /// The verdict: settled, or the objection; the interval that is as good to 1 % among the values
+  /// solved for, minima nearly as good elsewhere, and whether an end of the frequency range counts.
   std::string message;
   std::vector<std::string> notes;     ///< see PeakTrace
   std::vector<std::string> warnings;  ///< likewise
+  std::vector<int> orders;            ///< of the harmonics that it was searched with
   int n_curves = 0;                   ///< traced whole
   long iterations = 0;
   long contact_evaluations = 0;

@@ -152,6 +152,14 @@ CurveBudget combined(const std::vector<CurveBudget>& budgets, const Values& ampl
   return result;
 }
 
+/// Those of the search, where they are chosen: what they lack is a row of its own.
+SceneDescription with_harmonics_of(SceneDescription scene, const solver::Optimum& optimum) {
+  if (!scene.settings.harmonics.chosen() || optimum.orders.empty()) return scene;
+  scene.settings.harmonics = {.highest = std::ranges::max(optimum.orders),
+                              .orders = optimum.orders};
+  return scene;
+}
+
 }  // namespace
 
 CurveBudget optimum_budget(const ReducedModel& model, const SceneDescription& scene,
@@ -162,11 +170,12 @@ CurveBudget optimum_budget(const ReducedModel& model, const SceneDescription& sc
   const auto goes_on = [](const solver::ResponsePoint&) {
     return !interrupt_requested() && !cut_short();
   };
+  const SceneDescription searched = with_harmonics_of(scene, optimum);
   in_parallel(neighbours.size(), jobs, [&](std::size_t i) {
     const CurveRequest request{optimum_name, neighbours[i] * optimum.best.parameter};
     if (interrupt_requested() || cut_short()) return;
-    const CurveResult curve = trace_curve(model, scene, request, goes_on);
-    budgets[i] = error_budget(model, scene, richer, curve);
+    const CurveResult curve = trace_curve(model, searched, request, goes_on);
+    budgets[i] = error_budget(model, searched, richer, curve);
     const solver::ResponsePoint* peak = highest_peak(curve.curve);
     if (peak != nullptr) amplitudes[i] = peak->amplitude;
   });

@@ -64,9 +64,9 @@ auto members(Is<PeakOfParameter> auto& value) {
   return std::tie(parameter, frequency, amplitude, whole_curve, place, detached);
 }
 auto members(Is<Optimum> auto& value) {
-  auto& [best, trace, found, flat, objection, message, notes, warnings, n_curves, iterations,
-         evaluations, seconds] = value;
-  return std::tie(best, trace, found, flat, objection, message, notes, warnings, n_curves,
+  auto& [best, trace, found, flat, objection, message, notes, warnings, orders, n_curves,
+         iterations, evaluations, seconds] = value;
+  return std::tie(best, trace, found, flat, objection, message, notes, warnings, orders, n_curves,
                   iterations, evaluations, seconds);
 }
 }  // namespace solver

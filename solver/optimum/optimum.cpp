@@ -345,9 +345,10 @@ class Search {
                                [&](double end) { return peaks_.confirm(end, search_starts); });
   }
 
-  /// What stands against the ends of the interval called as good.
-  void tell_open_ends() {
-    if (options_.search_starts == 0) return;
+  /// What stands against the ends of the interval called as good. @return  whether nothing does.
+  bool tell_open_ends() {
+    bool settled = true;
+    if (options_.search_starts == 0) return settled;
     for (const double end : edges()) {
       if (end == result_.best.parameter || !peaks_.is_cut_short(end)) continue;
       const std::string open =
@@ -356,7 +357,9 @@ class Search {
           "may have a higher peak";
       result_.message += "; " + open;
       result_.warnings.push_back(open);
+      settled = false;
     }
+    return settled;
   }
 
   void search_edges() {
@@ -445,6 +448,7 @@ class Search {
     result_.trace = trace.peaks;
     result_.notes.insert(result_.notes.begin(), trace.notes.begin(), trace.notes.end());
     result_.warnings = trace.warnings;
+    result_.orders = peaks_.orders();
     result_.n_curves = trace.n_curves;
     result_.iterations = trace.iterations;
     result_.contact_evaluations = trace.contact_evaluations;
@@ -467,7 +471,10 @@ class Search {
     if (result_.best.place == PeakPlace::range_end && !one_frequency_) {
       result_.message += "; the largest amplitude lies at an end of the frequency range";
     }
-    tell_open_ends();
+    const bool settled = tell_open_ends();
+    if (result_.found) {
+      result_.message.insert(0, settled ? "settled: " : "settled but for an end of its interval: ");
+    }
     return std::move(result_);
   }
 

@@ -108,6 +108,8 @@ class PeakFamilies {
   void prepare(const std::vector<double>& parameters, int search_starts);
 
   [[nodiscard]] PeakTrace result() const;
+  /// Of the harmonics that all peaks have; empty: those of the scene.
+  [[nodiscard]] const std::vector<int>& orders() const { return range_.orders; }
 
  private:
   using Peaks = std::map<double, LocalPeak>;  // by position

@@ -119,7 +119,9 @@ TEST(Optimum, OfAFlatValleyIsAnInterval) {
   ASSERT_TRUE(optimum.found) << optimum.message;
   double low = 0.0;
   double high = 0.0;
-  ASSERT_EQ(std::sscanf(optimum.message.c_str(), "as good to 1 %% from %lf to %lf", &low, &high), 2)
+  ASSERT_EQ(
+      std::sscanf(optimum.message.c_str(), "settled: as good to 1 %% from %lf to %lf", &low, &high),
+      2)
       << optimum.message;
   // 1 % is reached where 1e-3 x² + 0.3 (|x| − 1)² = 0.01, x = ±1.1697; edges are solved to 0.2 %.
   EXPECT_NEAR(low, 10.0 * std::pow(2.0, -1.1697), 0.005 * low);

@@ -327,7 +327,9 @@ TEST(MinimisePeak, FindsTheBestPreloadOfPaperBNearThirtyNewtons) {
               1e-12 * optimum.best.amplitude);
   double low = 0.0;
   double high = 0.0;
-  ASSERT_EQ(std::sscanf(optimum.message.c_str(), "as good to 1 %% from %lf to %lf", &low, &high), 2)
+  ASSERT_EQ(
+      std::sscanf(optimum.message.c_str(), "settled: as good to 1 %% from %lf to %lf", &low, &high),
+      2)
       << optimum.message;
   for (const double end : {low, high}) {
     // The ends are known to a share of the valley; six digits are printed.
