@@ -63,7 +63,7 @@ constexpr double percent = 100.0;
 struct Told {
   std::optional<double> bound{};  ///< of the peaks that can be compared
   std::vector<std::string> words{};
-  double beside = 0.0;  ///< largest change that the words tell
+  double beside = 0.0;  ///< change of what the words tell that says most
   std::string most{};   ///< the words that tell it
   [[nodiscard]] bool anything() const { return bound || !words.empty(); }
 };
@@ -96,14 +96,16 @@ std::string words_of(const ErrorRow& row, std::string_view goal) {
       row.curve, change);
 }
 
-Told told_of(const std::vector<ErrorRow>& rows, const std::string& source) {
+/// @param tolerance  a resonance that changes by more is told in place of the end of the range.
+Told told_of(const std::vector<ErrorRow>& rows, const std::string& source, double tolerance) {
   Told told{largest_change(rows, source)};
   for (const char* goal :
        {resonance_goal, end_amplitude_goal, peak_outside_goal, one_frequency_goal}) {
     const ErrorRow* row = largest_row(rows, source, goal);
     if (row == nullptr) continue;
     told.words.push_back(words_of(*row, goal));
-    if (std::abs(row->effect) < told.beside) continue;
+    const bool says_little = goal == end_amplitude_goal && told.beside > tolerance;
+    if (says_little || std::abs(row->effect) < told.beside) continue;
     told.beside = std::abs(row->effect);
     told.most = told.words.back();
   }
@@ -182,7 +184,7 @@ const ErrorRow* largest_indicator(const std::vector<ErrorRow>& rows, const std::
 void tell_together(const std::vector<ErrorRow>& rows, double tolerance, EffectRecord& effect) {
   const std::string source = joint_source(rows, effect.name);
   if (source.empty()) return;
-  const Told told = told_of(rows, source);
+  const Told told = told_of(rows, source, tolerance);
   if (!told.anything()) return;
   if (told.words.empty()) effect.bound_together = told.bound;
   if (!source.starts_with(effect.name)) return;
@@ -210,7 +212,7 @@ void tell_bounds(const std::vector<ErrorRow>& rows, double tolerance,
     }
     const bool harmonics = effect.name == "higher_harmonics";
     const std::string source = harmonics ? "harmonics" : effect.name;
-    const Told told = told_of(rows, source);
+    const Told told = told_of(rows, source, tolerance);
     if (told.anything()) effect.bound = told.words.empty() ? told.bound : std::nullopt;
     for (const std::string& words : told.words) effect.reason += "; " + words;
     if (told.bound) effect.objection = *told.bound > tolerance ? objection_of(*told.bound) : "";
@@ -218,7 +220,7 @@ void tell_bounds(const std::vector<ErrorRow>& rows, double tolerance,
       effect.objection = "left out, and " + told.most;
     }
     tell_together(rows, tolerance, effect);
-    if (!told.anything()) tell_none(none, effect);
+    if (!told.anything() && !effect.bound) tell_none(none, effect);
   }
 }
 

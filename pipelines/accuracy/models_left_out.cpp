@@ -39,9 +39,8 @@ bool asks_for_direction(const ReducedModel& model, const SceneDescription& scene
     return patch.cells.stiffness.col(2).minCoeff() >= 0.0;
   });
   if (!stiff) return false;
-  const double ratio = model.effects.motion_ratio;
-  if (setting_of(scene, "second_direction") == "off") return ratio > least_motion_along_r(scene);
-  return (in_time(scene) || only_limits(scene)) && ratio > least_given_motion;
+  if (!(model.effects.motion_ratio > least_given_motion)) return false;
+  return setting_of(scene, "second_direction") == "off" || in_time(scene) || only_limits(scene);
 }
 
 /// Switched off, on a face that is none.

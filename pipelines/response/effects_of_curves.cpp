@@ -41,6 +41,8 @@ void tell_nonlinearity(const std::vector<CurveSummary>& curves, EffectRecord& ef
       curves, [](const CurveSummary& curve) { return !curve.certificate.empty(); });
   if (solved == 0) return;
   effect.simulated = proved == solved ? Simulated::no : Simulated::yes;
+  effect.bound.reset();
+  if (proved == solved) effect.bound = 0.0;  // that is what the proofs say
   effect.reason += fmt::format("; proved linear: {} of {} curves", proved, solved);
 }
 

@@ -67,7 +67,26 @@ TEST(EffectBounds, ACurveWithoutAPeakIsToldInWords) {
             std::string::npos)
       << effects[0].reason;
   EXPECT_NE(effects[0].reason.find("can be compared change by 0.1 % at most"), std::string::npos);
-  EXPECT_NE(effects[0].objection.find("by -80 %"), std::string::npos) << effects[0].objection;
+  // The end of the range says little beside a resonance that moves.
+  EXPECT_NE(effects[0].objection.find("changes by +21 %"), std::string::npos);
+  EXPECT_EQ(effects[0].objection.find("by -80 %"), std::string::npos) << effects[0].objection;
+}
+
+TEST(EffectBounds, AnEndThatChangesIsObjectedToWhereTheResonanceStays) {
+  std::vector<EffectRecord> effects{left_out("second_direction")};
+  tell_bounds({{"a", resonance_goal, "second_direction", 0.001, ErrorKind::solved, 0.1},
+               {"a", end_amplitude_goal, "second_direction", -0.3, ErrorKind::solved, 0.1}},
+              tolerance, effects);
+  EXPECT_NE(effects[0].objection.find("by -30 %"), std::string::npos) << effects[0].objection;
+}
+
+// As of contact that is proved linear.
+TEST(EffectBounds, ABoundThatIsThereNeedsNoReasonForNone) {
+  std::vector<EffectRecord> effects{left_out("nonlinearity")};
+  effects[0].bound = 0.0;
+  tell_bounds({}, tolerance, effects, {{"nonlinearity", "no curve has a peak to compare"}});
+  EXPECT_EQ(effects[0].bound, 0.0);
+  EXPECT_EQ(effects[0].reason, "");
 }
 
 TEST(EffectBounds, WhatHasNoneSaysWhy) {

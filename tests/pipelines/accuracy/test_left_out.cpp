@@ -116,6 +116,14 @@ TEST(LeftOut, FrictionAlongRHasABoundInTime) {
   EXPECT_NEAR(row->effect, amplitude(with) / amplitude(without) - 1.0, 1e-5);
 }
 
+// Below the limit of the indicator as well: what is "off" has a bound wherever `auto` has one.
+TEST(LeftOut, LittleMotionAlongRThatIsOffIsPutBack) {
+  Study study = of_chain({"response.preload=[50]", "effects.second_direction=off"});
+  EXPECT_EQ(effects_left_out(study.model, study.scene), Overrides{});
+  study.model.effects.motion_ratio = 0.02;
+  EXPECT_EQ(effects_left_out(study.model, study.scene), Overrides{"second_direction"});
+}
+
 TEST(LeftOut, LimitsAloneAreComparedByTheirPeaks) {
   const Overrides limits{"response.preload=[\"free\", \"stuck\"]"};
   Overrides off = limits;
