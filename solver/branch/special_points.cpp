@@ -76,7 +76,8 @@ double angle(const BranchVector& a, const BranchVector& b) {
   return std::acos(std::clamp(dot(a, b) / std::sqrt(dot(a, a) * dot(b, b)), -1.0, 1.0));
 }
 
-/// Places of a step that have been solved for, by their shares of the way.
+/// Places halfway in a step and its halves that have been solved for, by their shares of the way.
+/// Others no second search comes to, and each holds its Jacobian and factors.
 using Places = std::map<double, StepPoint>;
 
 class Segment {
@@ -115,6 +116,7 @@ class Segment {
   void search(const Node& a, const Node& b, int n_splits) {
     if (n_splits < most_splits_ && may_hide(a, b)) {
       if (const auto middle = between(a, b, 0.5 * (a.at.share + b.at.share))) {
+        places_.try_emplace(middle->at.share, middle->at);
         search(a, *middle, n_splits + 1);
         search(*middle, b, n_splits + 1);
         return;
@@ -174,7 +176,6 @@ class Segment {
       return std::nullopt;
     }
     if (!walker_.is_sampled()) n_failed_ = 0;
-    places_.emplace(share, *point);
     return node(std::move(*point));
   }
 
