@@ -358,6 +358,7 @@ std::vector<Kind> kinds() {
           {"friction by speed, 3 harmonics", 3, false, falling},
           {"two directions, 1 harmonic", 1, true, equal},
           {"two directions, 3 harmonics", 3, true, equal},
+          {"two directions, 9 harmonics", 9, true, equal},
           {"two directions, rough, 3 harmonics", 3, true, rough},
           {"two directions, friction by speed, 3 harmonics", 3, true, falling}};
 }
