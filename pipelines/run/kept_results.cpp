@@ -121,7 +121,7 @@ void keep_part(const std::string& kind, const std::string& inputs, const Part& p
   cache->entry(kind, inputs).keep(bytes.bytes());
 }
 
-std::string with_load(std::string inputs, const std::variant<double, LimitName>& load) {
+std::string with_load(const std::string& inputs, const std::variant<double, LimitName>& load) {
   ByteWriter bytes;
   bytes(load);
   return inputs + bytes.bytes();
