@@ -18,7 +18,13 @@ BranchFactors::BranchFactors(const BalanceEvaluation& at, BranchVector row, cons
       scaling_(scaling),
       along_(factors_.solve(Eigen::VectorXd::Unit(row_.x.size() + 1, row_.x.size()))) {}
 
-Tangent BranchFactors::tangent() const { return branch_tangent(factors_, row_); }
+Tangent BranchFactors::tangent() const {
+  if (!along_.allFinite()) return {row_, 0.0};  // it turns by a right angle here: go on straight
+  const Eigen::Index n = row_.x.size();
+  const double size = along_.norm();
+  // det [D; tᵀ] has the sign of det [D; rowᵀ] because t·row > 0.
+  return {{along_.head(n) / size, along_[n] / size}, factors_.sign_of_determinant()};
+}
 
 /// Another row is a change of rank one, another scaling one of rows and columns.
 Eigen::VectorXd BranchFactors::solve(const Eigen::VectorXd& f, const BranchVector& row,

@@ -27,10 +27,11 @@ class Broyden {
   /// The next step, which is to be taken whole. Not finite: the updates have lost rank.
   /// @param f  where the step before has led.
   [[nodiscard]] Eigen::VectorXd step(const Eigen::VectorXd& f);
-  /// H f by what has been learned.
-  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& f) const;
 
  private:
+  /// H f.
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& f) const;
+
   Inverse inverse_;
   std::vector<Eigen::VectorXd> steps_;
 };

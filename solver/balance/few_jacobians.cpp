@@ -40,7 +40,6 @@ class Corrector {
       if (best.residual <= tolerance_ && at.residual <= near) {
         best.evaluation.jacobian = std::move(at.evaluation.jacobian);
         best.evaluation.parameter_derivative = std::move(at.evaluation.parameter_derivative);
-        best.tangent = factors_->tangent();
         best.factors = std::move(factors_);
         return finished(std::move(best));
       }

@@ -5,6 +5,9 @@
 #include <limits>
 #include <utility>
 
+#include "contact/dense.hpp"
+#include "solver/balance/branch_factors.hpp"
+
 namespace microslip::solver {
 namespace {
 
@@ -196,22 +199,7 @@ std::optional<BranchVector> null_vector(const BalanceEvaluation& at, const Scali
 
 Tangent branch_tangent(const BalanceEvaluation& at, const BranchVector& previous,
                        const Scaling& scaling) {
-  return branch_tangent(contact::LuFactors(bordered(at, previous, scaling)), previous);
-}
-
-Tangent branch_tangent(const contact::LuFactors& factors, const BranchVector& previous) {
-  const Eigen::Index n = previous.x.size();
-  Eigen::VectorXd y = factors.solve(Eigen::VectorXd::Unit(n + 1, n));
-  Tangent tangent;
-  if (!y.allFinite()) {  // the branch turns by a right angle here: go on straight
-    tangent.direction = previous;
-    return tangent;
-  }
-  y.normalize();
-  tangent.direction = {y.head(n), y[n]};
-  // det [D; tᵀ] has the sign of det [D; previousᵀ] because t·previous > 0.
-  tangent.orientation = factors.sign_of_determinant();
-  return tangent;
+  return BranchFactors(at, previous, scaling).tangent();
 }
 
 }  // namespace microslip::solver

@@ -10,7 +10,6 @@
 
 #include <Eigen/Core>
 
-#include "contact/dense.hpp"
 #include "solver/balance/harmonic_balance.hpp"
 
 namespace microslip::solver {
@@ -61,10 +60,8 @@ struct NewtonResult {
   int iterations = 0;            ///< Newton steps until the tolerance was met
   int evaluations = 0;
   bool converged = false;
-  /// Where the last Jacobian was factorised with the constraint: in the scaling and at less than
-  /// 90° to the constraint of the solve.
-  std::optional<Tangent> tangent;
-  /// Those factors, which serve places near by.
+  /// Of the Jacobian of `evaluation` with the constraint, where they were made: they tell the
+  /// tangent and serve places near by.
   std::shared_ptr<const BranchFactors> factors;
 };
 
@@ -102,10 +99,6 @@ struct NewtonResult {
 /// @param previous  last tangent; the new one makes an angle below 90° with it.
 [[nodiscard]] Tangent branch_tangent(const BalanceEvaluation& at, const BranchVector& previous,
                                      const Scaling& scaling);
-
-/// The same from the factors of bordered() with `previous`.
-[[nodiscard]] Tangent branch_tangent(const contact::LuFactors& factors,
-                                     const BranchVector& previous);
 
 /// Null vector of [∂R/∂x σ_x, ∂R/∂p σ_p], of length one, with the sign that gives det [∂R/∂y; tᵀ]
 /// the sign of `orientation`. Empty: the Jacobian is not finite or loses rank twice.

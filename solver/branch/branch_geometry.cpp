@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "solver/balance/branch_factors.hpp"
+
 namespace microslip::solver {
 namespace {
 
@@ -24,6 +26,17 @@ BranchVector rescaled(const BranchVector& direction, const Scaling& from, const 
   result.x /= size;
   result.parameter /= size;
   return result;
+}
+
+Tangent tangent_at(const NewtonResult& at, const BranchVector& previous, const Scaling& scaling) {
+  if (!at.factors) return branch_tangent(at.evaluation, previous, scaling);
+  const Tangent own = at.factors->tangent();
+  Tangent tangent{rescaled(own.direction, at.factors->scaling(), scaling), own.orientation};
+  if (dot(tangent.direction, previous) < 0.0) {
+    tangent.direction = {-tangent.direction.x, -tangent.direction.parameter};
+    tangent.orientation = -tangent.orientation;
+  }
+  return tangent;
 }
 
 BranchVector difference(const BranchVector& a, const BranchVector& b, const Scaling& scaling) {

@@ -21,6 +21,11 @@ struct WalkerPoint {
 /// A direction of length one from the scaled variables of one scaling to those of another.
 [[nodiscard]] BranchVector rescaled(const BranchVector& direction, const Scaling& from,
                                     const Scaling& to);
+/// Of the branch at a solution, at less than 90° to `previous`: by the factors that came with it,
+/// else by its derivatives.
+/// @param previous  in variables of `scaling`, as the result.
+[[nodiscard]] Tangent tangent_at(const NewtonResult& at, const BranchVector& previous,
+                                 const Scaling& scaling);
 /// a − b in scaled variables.
 [[nodiscard]] BranchVector difference(const BranchVector& a, const BranchVector& b,
                                       const Scaling& scaling);

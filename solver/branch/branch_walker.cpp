@@ -81,13 +81,6 @@ BranchWalker::Trial BranchWalker::corrected(const BranchVector& predicted,
   return trial;
 }
 
-/// In another scaling than that of the solve, now_'s.
-Tangent BranchWalker::tangent_at(const NewtonResult& at, const BranchVector& previous,
-                                 const Scaling& scaling) const {
-  if (!at.tangent) return branch_tangent(at.evaluation, previous, scaling);
-  return {rescaled(at.tangent->direction, now_.scaling, scaling), at.tangent->orientation};
-}
-
 NewtonResult BranchWalker::solved(const BranchVector& predicted, const BranchVector& direction,
                                   const NewtonOptions& options, const WalkerPoint& nearby) {
   if (!residual_) return solve_newton(system_, predicted, direction, now_.scaling, options);

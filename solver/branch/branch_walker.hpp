@@ -105,8 +105,6 @@ class BranchWalker {
   [[nodiscard]] std::optional<WalkerPoint> corrected(const BranchVector& start,
                                                      const BranchVector& chord,
                                                      const WalkerPoint& nearby);
-  [[nodiscard]] Tangent tangent_at(const NewtonResult& at, const BranchVector& previous,
-                                   const Scaling& scaling) const;
   [[nodiscard]] NewtonResult solved(const BranchVector& predicted, const BranchVector& direction,
                                     const NewtonOptions& options, const WalkerPoint& nearby);
 

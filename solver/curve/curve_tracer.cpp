@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "solver/balance/branch_factors.hpp"
 #include "solver/balance/first_harmonics.hpp"
 #include "solver/balance/linear_resonance.hpp"
 #include "solver/branch/start_point.hpp"
@@ -35,11 +36,13 @@ bool on_the_branch(const WalkerPoint& last, const BranchVector& next) {
          same_branch * size + std::min(along, longest_extrapolation * size);
 }
 
-/// det ∂R/∂x = det [∂R/∂y; tᵀ] t_ω; empty: no tangent came with the solution.
+/// det ∂R/∂x = det [∂R/∂y; tᵀ] t_ω; empty: no factors came with the solution.
 std::optional<double> sign_of_determinant(const NewtonResult& at) {
-  if (!at.tangent || at.tangent->orientation == 0.0) return std::nullopt;
-  const double along = at.tangent->direction.parameter;
-  return at.tangent->orientation * (along > 0.0 ? 1.0 : (along < 0.0 ? -1.0 : 0.0));
+  if (!at.factors) return std::nullopt;
+  const Tangent tangent = at.factors->tangent();
+  if (tangent.orientation == 0.0) return std::nullopt;
+  const double along = tangent.direction.parameter;
+  return tangent.orientation * (along > 0.0 ? 1.0 : (along < 0.0 ? -1.0 : 0.0));
 }
 
 Diagnosis diagnosis_of(Stall stall) {

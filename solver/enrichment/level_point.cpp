@@ -62,9 +62,7 @@ class Climb {
     if (at.factors) nearby_ = at.factors;
     Step step;
     step.point = at.point;
-    const Tangent along =
-        at.tangent ? *at.tangent : branch_tangent(at.evaluation, tangent, start_.scaling);
-    step.tangent = along.direction;
+    step.tangent = tangent_at(at, tangent, start_.scaling).direction;
     const OutputAmplitude output =
         output_amplitude(balance_.harmonics(at.point.x), balance_.scene().output);
     step.amplitude = output.half_peak_to_peak;

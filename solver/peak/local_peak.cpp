@@ -7,6 +7,7 @@
 
 #include "solver/balance/few_jacobians.hpp"
 #include "solver/balance/output_amplitude.hpp"
+#include "solver/branch/branch_geometry.hpp"
 #include "solver/branch/branch_walker.hpp"
 #include "solver/branch/special_points.hpp"
 #include "solver/branch/start_point.hpp"
@@ -57,7 +58,7 @@ LocalPeak made_peak(const HarmonicBalance& balance, const NewtonResult& at,
   peak.scaling.parameter = std::clamp(width, narrowest * frequency, widest * frequency);
   const BranchVector along{direction.x,
                            direction.parameter * scaling.parameter / peak.scaling.parameter};
-  peak.tangent = branch_tangent(at.evaluation, along, peak.scaling).direction;
+  peak.tangent = tangent_at(at, along, peak.scaling).direction;
   peak.amplitude = slope_along(balance, at.point.x, peak.tangent, scaling).amplitude;
   return peak;
 }
@@ -184,9 +185,7 @@ std::optional<LocalPeak> follow_peak(HarmonicBalance& balance, const LocalPeak& 
   NewtonResult start = solved(balance, guess, from.tangent, scaling, range, work);
   if (!start.converged || distance(start.point, guess, scaling) > farthest) return std::nullopt;
 
-  BranchVector tangent = start.tangent
-                             ? start.tangent->direction
-                             : branch_tangent(start.evaluation, from.tangent, scaling).direction;
+  const BranchVector tangent = tangent_at(start, from.tangent, scaling).direction;
   const Slope slope = slope_along(balance, start.point.x, tangent, scaling);
   if (std::abs(slope.value) <= level * slope.amplitude && inside(start.point.parameter, range)) {
     return made_peak(balance, start, tangent, scaling);

@@ -1,13 +1,15 @@
 #include "solver/balance/broyden.hpp"
 
 #include <cmath>
+#include <memory>
 
 #include <gtest/gtest.h>
 #include <Eigen/LU>
 
 #include "solver/balance/branch_factors.hpp"
+#include "solver/branch/branch_geometry.hpp"
 
-namespace microslip::solver::test_broyden {
+namespace microslip::solver::test_branch_factors {
 namespace {
 
 /// Well conditioned, without symmetry.
@@ -53,11 +55,33 @@ TEST(BranchFactors, ServeAnotherRowInAnotherScaling) {
     const Eigen::VectorXd expected = bordered(at, asked, scaling).lu().solve(f);
     EXPECT_LT((factors.solve(f, asked, scaling) - expected).norm(), 1e-12 * expected.norm());
   }
-  const Tangent expected = branch_tangent(at, made_with, own);
-  const Tangent tangent = factors.tangent();
-  EXPECT_LT((tangent.direction.x - expected.direction.x).norm(), 1e-14);
-  EXPECT_EQ(tangent.orientation, expected.orientation);
+}
+
+TEST(BranchFactors, TellTheTangentInTheirScalingAndInAnother) {
+  constexpr Eigen::Index n = 5;
+  NewtonResult solution;
+  BalanceEvaluation& at = solution.evaluation;
+  at.jacobian = matrix(n, 0.4);
+  at.parameter_derivative = Eigen::VectorXd::LinSpaced(n, 0.5, -1.5);
+  at.residual = Eigen::VectorXd::Zero(n);
+  const BranchVector row{Eigen::VectorXd::LinSpaced(n, 0.1, 0.4), 0.8};
+  const Scaling own{.x = 1e-4, .parameter = 3.0, .residual = 20.0};
+  const Scaling other{.x = 2.5e-4, .parameter = 0.7, .residual = 14.0};
+  solution.factors = std::make_shared<BranchFactors>(at, row, own);
+  const BranchVector back{-row.x, -row.parameter};
+  for (const Scaling& scaling : {own, other}) {
+    for (const BranchVector& previous : {row, back}) {
+      const Tangent tangent = tangent_at(solution, previous, scaling);
+      EXPECT_GT(dot(tangent.direction, previous), 0.0);
+      EXPECT_NEAR(length(tangent.direction), 1.0, 1e-14);
+      const Eigen::MatrixXd square = bordered(at, tangent.direction, scaling);
+      Eigen::VectorXd y(n + 1);
+      y << tangent.direction.x, tangent.direction.parameter;
+      EXPECT_LT((square.topRows(n) * y).norm(), 1e-13 * square.norm());
+      EXPECT_EQ(tangent.orientation, square.determinant() > 0.0 ? 1.0 : -1.0);
+    }
+  }
 }
 
 }  // namespace
-}  // namespace microslip::solver::test_broyden
+}  // namespace microslip::solver::test_branch_factors
