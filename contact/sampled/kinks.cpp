@@ -4,127 +4,241 @@
 #include <array>
 #include <cmath>
 
-#include "contact/sampled/step_spline.hpp"
-
 namespace microslip::contact::sampled {
 namespace {
 
 double at(const double* column, std::size_t i) { return column[i * block_size]; }
 
-/// The step in which a run ends.
+/// 1 along positive friction, −1 against it, 0: it sticks.
+double side_of(InstantState state) {
+  if (state == InstantState::positive_slip) return 1.0;
+  return state == InstantState::negative_slip ? -1.0 : 0.0;
+}
+
+Slopes slopes_at(const StepSpline& w, double x, double factor) {
+  return {factor * w.slope_at(x), factor * w.bend_at(x), factor * 6.0 * w.cube};
+}
+
+/// Where side (w − level) becomes positive between two places, for good; by Newton's method from
+/// the chord, kept between the last places on both sides.
+double rises_above(const StepSpline& w, double level, double side, double from, double to) {
+  const double depth = side * (level - w.at(from));
+  const double height = side * (w.at(to) - level);
+  if (!(height > 0.0)) return to;
+  if (!(depth > 0.0)) return from;
+  double low = from;
+  double high = to;
+  double x = from + (to - from) * depth / (depth + height);
+  for (int i = 0; i < 50; ++i) {
+    const double above = side * (w.at(x) - level);
+    (above > 0.0 ? high : low) = x;
+    const double slope = side * w.slope_at(x);
+    const double middle = 0.5 * (low + high);
+    double next = slope > 0.0 ? x - above / slope : middle;
+    if (next < low || next > high) next = middle;
+    const double way = std::abs(next - x);
+    x = next;
+    if (way < 1e-8 && next != middle) break;  // the next one would be its square
+    if (way < 1e-14) break;
+  }
+  return x;
+}
+
+/// Where w returns to what it is at a place from which it leaves against `side`.
+double returns(const StepSpline& w, double side, double from, double to) {
+  const double slope = side * w.slope_at(from);
+  const double half_bend = side * 0.5 * w.bend_at(from);
+  const double cube = side * w.cube;
+  const double root = std::sqrt(std::max(half_bend * half_bend - 4.0 * slope * cube, 0.0));
+  const double below = half_bend + root;
+  return below > 0.0 ? std::clamp(from - 2.0 * slope / below, from, to) : from;
+}
+
+/// The step in which a run ends, followed from its begin on.
 class Step {
  public:
-  Step(const SmoothPoint& point, const LineColumns& columns, std::size_t now, std::size_t n)
-      : point_(point), columns_(columns), now_(now), before_((now + n - 1) % n), n_(n) {}
+  Step(const SmoothPoint& point, const LineColumns& columns, std::size_t now, std::size_t n,
+       std::vector<Kink>& kinks)
+      : point_(point),
+        columns_(columns),
+        now_(now),
+        before_(now > 0 ? now - 1 : n - 1),
+        u_(around_step(columns.u, now, n)),
+        r_(around_step(columns.closeness, now, n)),
+        kinks_(kinks) {}
 
-  [[nodiscard]] RunEnd end(const Run& from, const Run& to) const {
-    if (from.state == InstantState::separated) return {{}, closes()};
-    if (to.state == InstantState::separated) return opens(from.state);
-    if (slips(to.state) || to.turned) return {begins_to_slip(from.state), {}};
-    return {};
+  void end(const Run& from, const Run& to) {
+    slider_ = at(columns_.slider, before_);
+    side_ = side_of(from.state);
+    if (from.state == InstantState::separated) {
+      close(to);
+    } else if (to.state == InstantState::separated) {
+      open();
+    } else {
+      rub(to);
+    }
   }
 
  private:
-  /// Where it slips that way already it goes on until it turns.
-  [[nodiscard]] Kink begins_to_slip(InstantState from) const {
-    const double slider = at(columns_.slider, before_);
-    const double up = std::min(slider, at(columns_.high, now_));
-    const double down = std::max(slider, at(columns_.low, now_));
-    if (from != InstantState::positive_slip && band_end(now_, -1.0) > up) return slip(1.0, up);
-    if (from != InstantState::negative_slip && band_end(now_, 1.0) < down) return slip(-1.0, down);
-    return {};
-  }
-
-  [[nodiscard]] Kink slip(double side, double slider) const {
-    Kink kink = kink_of(Kink::Kind::slips);
-    const double first = band_end(before_, -side);
-    kink.side = side;
-    kink.rise = band_end(now_, -side) - first;
-    place(kink, slider - first);
-    damp(kink, end_of_band(point_, columns_, -side, now_, n_), side);
-    kink.friction = -point_.tangential_stiffness *
-                    (kink.weight() * kink.rise - kink.damping * kink.slope / 12.0);
-    return kink;
-  }
-
-  /// In line to the friction at the instant behind, whatever it does there.
-  [[nodiscard]] Kink closes() const {
-    Kink kink = contact(Kink::Kind::closes, 1.0);
-    const double k_u = point_.tangential_stiffness;
-    const StepSpline u(around_step(columns_.u, now_, n_));
-    kink.force = k_u * (at(columns_.u, now_) - at(columns_.slider, now_));
-    kink.stick_slope = u.slope_at(kink.share);
-    kink.stick_bend = u.bend_at(kink.share);
-    const double limit = point_.friction_coefficient * std::max(kink.slope, 0.0);
-    const double pull = k_u * kink.stick_slope;
-    if (std::abs(pull) >= limit) kink.side = pull < 0.0 ? -1.0 : 1.0;
-    const double late = kink.side == 0.0 ? pull : kink.side * limit;
-    kink.friction = 0.5 * kink.share * kink.force - kink.damping * late / 12.0;
-    return kink;
-  }
-
-  [[nodiscard]] RunEnd opens(InstantState from) const {
-    RunEnd end{{}, contact(Kink::Kind::opens, -1.0)};
-    Kink& kink = end.contact;
-    kink.side = from == InstantState::negative_slip ? -1.0 : 1.0;
-    if (from == InstantState::stick) {
-      const double slider = at(columns_.slider, before_);
-      const double u =
-          at(columns_.u, before_) + kink.share * (at(columns_.u, now_) - at(columns_.u, before_));
-      kink.side = u < slider ? -1.0 : 1.0;
-      end.slip = slip(kink.side, slider);
+  /// Through contact, to what it does at the instant behind.
+  void rub(const Run& to) {
+    if (point_.tangential_stiffness == 0.0) return;
+    const double last = to.turned ? 0.0 : side_of(to.state);
+    const double turn = at(columns_.turns, now_);
+    double side = side_;
+    if (side == 0.0) side = turn == 0.0 ? last : (turn == 1.0 || turn == 3.0 ? 1.0 : -1.0);
+    for (int i = 0; i < 2 && side != 0.0; ++i, side = -side) {
+      if (side_ == side && last == side && !turns(side)) return;
+      if (side_ != side) {
+        const double height = turns(side) ? turned_to(side) : band_end(side).at(1.0);
+        if (!(side * (height - slider_) > 0.0)) continue;
+        begin_slip(side, turns(side) ? std::max(band_end(side).turn(), place_) : 1.0);
+        if (!turns(side)) return;
+      }
+      end_slip(side);
     }
-    kink.friction = kink.side * point_.friction_coefficient * kink.load;
-    return end;
   }
 
-  /// The load.
-  [[nodiscard]] Kink contact(Kink::Kind kind, double direction) const {
-    Kink kink = kink_of(kind);
-    const std::array<double, 4> r = around_step(columns_.closeness, now_, n_);
-    kink.rise = r[2] - r[1];
-    place(kink, -r[1]);
-    damp(kink, r, direction);
-    kink.load = direction * (kink.weight() * kink.rise - kink.damping * kink.slope / 12.0);
+  void begin_slip(double side, double latest) {
+    const StepSpline w = band_end(side);
+    const bool landed = left_by_ == Kink::Slider::landing;
+    const double place =
+        landed ? returns(w, side, place_, latest) : rises_above(w, slider_, side, place_, latest);
+    Kink& kink = add(Kink::Kind::slips, place, side);
+    kink.slider = left_by_;
+    kink.turn = turn_;
+    kink.friction = slopes_at(w, kink.share, -point_.tangential_stiffness);
+    side_ = side;
+  }
+
+  /// Where the end of the band turns in the step, or has turned at its begin.
+  void end_slip(double side) {
+    const StepSpline w = band_end(side);
+    const bool here = turns(side);
+    Kink& kink = add(Kink::Kind::ends_slip, here ? std::max(w.turn(), place_) : place_, side);
+    kink.friction = slopes_at(w, kink.share, point_.tangential_stiffness);
+    kink.friction[0] = 0.0;
+    slider_ = here ? turned_to(side) : w.at(kink.share);
+    side_ = 0.0;
+    left_by_ = Kink::Slider::turn;
+    turn_ = kink.share;
+  }
+
+  void close(const Run& to) {
+    const double rise = at(columns_.closeness, now_) - at(columns_.closeness, before_);
+    Kink& kink = add(Kink::Kind::closes, r_.rise_through_zero(rise), 0.0);
+    const double k_u = point_.tangential_stiffness;
+    kink.load = slopes_at(r_, kink.share, 1.0);
+    const double pull = k_u * u_.slope_at(kink.share);
+    const double limit = point_.friction_coefficient * std::max(kink.load[0], 0.0);
+    slider_ = u_.at(kink.share);
+    left_by_ = Kink::Slider::landing;
+    side_ = 0.0;
+    const double side = pull < 0.0 ? -1.0 : 1.0;
+    const bool rests = to.state == InstantState::stick && !turns(side);
+    if (std::abs(pull) < limit || rests) {
+      kink.friction = slopes_at(u_, kink.share, k_u);
+    } else {
+      kink.side = side_ = side;
+      kink.friction = slopes_at(r_, kink.share, side * point_.friction_coefficient);
+    }
+    rub(to);
+  }
+
+  void open() {
+    StepSpline fall = r_;
+    fall.begin = -fall.begin;
+    fall.slope = -fall.slope;
+    fall.square = -fall.square;
+    fall.cube = -fall.cube;
+    const double place =
+        fall.rise_through_zero(at(columns_.closeness, before_) - at(columns_.closeness, now_));
+    const bool rubs = point_.tangential_stiffness > 0.0;
+    if (rubs && side_ == 0.0) {
+      begin_slip(u_.at(place) < slider_ ? -1.0 : 1.0, place);
+    }
+    Kink& kink = add(Kink::Kind::opens, place, side_);
+    kink.load = slopes_at(r_, place, -1.0);
+    kink.friction = slopes_at(r_, place, -side_ * point_.friction_coefficient);
+  }
+
+  Kink& add(Kink::Kind kind, double place, double side) {
+    Kink& kink = kinks_.emplace_back();
+    kink.kind = kind;
+    kink.now = now_;
+    kink.share = place_ = place;
+    kink.side = side;
     return kink;
   }
 
-  [[nodiscard]] Kink kink_of(Kink::Kind kind) const {
-    return {.kind = kind, .before = before_, .now = now_};
+  [[nodiscard]] bool turns(double side) const {
+    const double turn = at(columns_.turns, now_);
+    return turn > 2.5 || turn == (side > 0.0 ? 1.0 : 2.0);
   }
-
-  static void place(Kink& kink, double way) {
-    kink.share = kink.rise == 0.0 ? 0.5 : std::clamp(way / kink.rise, 0.0, 1.0);
+  [[nodiscard]] double turned_to(double side) const {
+    return at(side > 0.0 ? columns_.low : columns_.high, now_);
   }
-
-  /// The slope of a signal at the kink, damped to 0 where it does not go in the direction it met
-  /// the kink.
-  static void damp(Kink& kink, const std::array<double, 4>& w, double direction) {
-    const StepSpline signal(w);
-    const double x = kink.share;
-    kink.slope = signal.slope_at(x);
-    kink.bend = signal.bend_at(x);
-    const double rise = std::max(direction * kink.slope, 0.0);
-    // That of the spline jumps from one step to the next.
-    const double bend = (1.0 - x) * (w[0] - 2.0 * w[1] + w[2]) + x * (w[1] - 2.0 * w[2] + w[3]);
-    kink.damping = rise >= std::abs(bend) ? 1.0 : rise / std::abs(bend);
-    if (rise == 0.0) kink.damping = 0.0;
-  }
-
-  [[nodiscard]] double band_end(std::size_t i, double side) const {
-    return at(columns_.u, i) + side * point_.compliance() * at(columns_.closeness, i);
+  /// w along positive friction.
+  [[nodiscard]] StepSpline band_end(double side) const {
+    return u_.plus(-side * point_.compliance(), r_);
   }
 
   const SmoothPoint& point_;
   const LineColumns& columns_;
   std::size_t now_;
   std::size_t before_;
-  std::size_t n_;
+  StepSpline u_;
+  StepSpline r_;
+  std::vector<Kink>& kinks_;
+  double place_ = 0.0;
+  double side_ = 0.0;  // of slip
+  double slider_ = 0.0;
+  Kink::Slider left_by_ = Kink::Slider::run;
+  double turn_ = 0.0;
 };
 
-void add(double* column, const Kink& kink, double error) {
-  column[kink.before * block_size] -= error * (1.0 - kink.share);
-  column[kink.now * block_size] -= error * kink.share;
+/// Splines go on with the same slope alone from one step to the next, which tells where a stick
+/// lasts for less than one: then the force bends so much.
+Kink passed(const SmoothPoint& point, const LineColumns& columns, std::size_t now, std::size_t n) {
+  const StepSpline u(around_step(columns.u, now, n));
+  const StepSpline next(around_step(columns.u, now + 1 < n ? now + 1 : 0, n));
+  const double k_u = point.tangential_stiffness;
+  Kink kink;
+  kink.kind = Kink::Kind::passes;
+  kink.now = now;
+  kink.share = 1.0;
+  kink.friction = {0.0, k_u * (next.bend_at(0.0) - u.bend_at(1.0)),
+                   6.0 * k_u * (next.cube - u.cube)};
+  return kink;
+}
+
+/// The cubics of Lagrange through t = −1, 0, 1, 2 with three derivatives, [order][place].
+using LagrangeBasis = std::array<std::array<double, 4>, 4>;
+
+LagrangeBasis lagrange(double x) {
+  const std::array<double, 4> t{x + 1.0, x, x - 1.0, x - 2.0};
+  constexpr std::array<double, 4> factor{-1.0 / 6.0, 0.5, -0.5, 1.0 / 6.0};
+  LagrangeBasis basis{};
+  for (std::size_t j = 0; j < 4; ++j) {
+    const double p = t[j > 0 ? 0 : 1];
+    const double q = t[j > 1 ? 1 : 2];
+    const double r = t[j > 2 ? 2 : 3];
+    basis[0][j] = factor[j] * p * q * r;
+    basis[1][j] = factor[j] * (p * q + (p + q) * r);
+    basis[2][j] = factor[j] * 2.0 * (p + q + r);
+    basis[3][j] = factor[j] * 6.0;
+  }
+  return basis;
+}
+
+void take_off(const Slopes& c, const KinkMoments& moments, const LagrangeBasis& basis,
+              const std::array<std::size_t, 4>& at, double* column) {
+  std::array<double, 4> error{};
+  for (std::size_t l = 0; l < moments.size(); ++l) {
+    const double moment = moments[l][0] * c[0] + moments[l][1] * c[1] + moments[l][2] * c[2];
+    for (std::size_t j = 0; j < 4; ++j) error[j] += moment * basis[l][j];
+  }
+  for (std::size_t j = 0; j < 4; ++j) column[at[j] * block_size] -= error[j];
 }
 
 }  // namespace
@@ -137,23 +251,52 @@ std::array<double, 4> end_of_band(const SmoothPoint& point, const LineColumns& c
   return w;
 }
 
+KinkMoments kink_moments(double x) {
+  // β_1 … β_6, by B_{m+1}(x) in y = x (1 − x) and z = x − 1/2.
+  const double y = x * (1.0 - x);
+  const double z = x - 0.5;
+  const std::array<double, 7> beta{
+      z,
+      -(1.0 / 6.0 - y) / 2.0,
+      -y * z / 6.0,
+      -(y * y - 1.0 / 30.0) / 24.0,
+      z * y * (y + 1.0 / 3.0) / 120.0,
+      -(1.0 / 42.0 - y * y * (0.5 + y)) / 720.0,
+      -z * y * (y * y + y + 1.0 / 3.0) / 5040.0,
+  };
+  constexpr std::array<std::array<double, 3>, 4> choose{
+      {{1.0, 1.0, 1.0}, {2.0, 3.0, 4.0}, {3.0, 6.0, 10.0}, {4.0, 10.0, 20.0}}};
+  KinkMoments moments{};
+  for (std::size_t l = 0; l < 4; ++l) {
+    for (std::size_t i = 0; i < 3; ++i) moments[l][i] = choose[l][i] * beta[i + 1 + l];
+  }
+  return moments;
+}
+
 void find_kinks(const SmoothPoint& point, const std::vector<Run>& runs, const LineColumns& columns,
-                std::size_t n, std::vector<RunEnd>& ends) {
-  ends.clear();
+                std::size_t n, Kinks& kinks) {
+  kinks.all.clear();
+  kinks.first.clear();
   if (runs.size() < 2) return;
+  kinks.first.push_back(0);
   for (std::size_t j = 0; j < runs.size(); ++j) {
+    const Run& run = runs[j];
     const Run& next = runs[j + 1 < runs.size() ? j + 1 : 0];
-    ends.push_back(Step(point, columns, next.begin, n).end(runs[j], next));
+    Step(point, columns, next.begin, n, kinks.all).end(run, next);
+    if (run.state == InstantState::stick && run.length == 1) {
+      kinks.all.push_back(passed(point, columns, run.begin, n));
+    }
+    kinks.first.push_back(kinks.all.size());
   }
 }
 
-void mend(const std::vector<RunEnd>& ends, double* friction, double* normal) {
-  for (const RunEnd& end : ends) {
-    for (const Kink& kink : {end.slip, end.contact}) {
-      if (kink.kind == Kink::Kind::none) continue;
-      add(friction, kink, kink.friction);
-      add(normal, kink, kink.load);
-    }
+void mend(const Kinks& kinks, std::size_t n, double* friction, double* normal) {
+  for (const Kink& kink : kinks.all) {
+    const KinkMoments moments = kink_moments(kink.share);
+    const LagrangeBasis basis = lagrange(kink.share);
+    const auto around = instants_around(kink.now, n);
+    take_off(kink.friction, moments, basis, around, friction);
+    if (kink.load[0] != 0.0) take_off(kink.load, moments, basis, around, normal);
   }
 }
 

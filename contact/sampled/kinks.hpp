@@ -1,25 +1,31 @@
 /// @file
-/// Kinks of the sampled force of a point with a smooth surface. The sum over instants, h = 2π/n
-/// apart, errs where the slope of a signal jumps by D between two of them (Euler and Maclaurin; x
-/// from the one before, D per instant):
+/// Kinks of the sampled force of a point with a smooth surface. Behind a kink at x, in instants
+/// from the one before, a signal goes on by c(t) more than it would have, c(x) = 0. The sum over
+/// instants, h = 2π/n apart, errs by (Euler and Maclaurin; derivatives by instants, B the
+/// polynomials of Bernoulli)
 ///
-///   h Σ f_i T(θ_i) = ∮ f T dθ + Σ_kinks h [ D x (1−x)/2 − φ D'/12 ] T(θ_x) + O(h³)             (1)
+///   Σ f_i T(θ_i) − ∮ f T dθ/h = Σ_kinks Σ_m β_m (c T)^(m)(x)                              (1)
+///   β_m = (−1)^m B_{m+1}(x)/(m+1)!
 ///
-/// D by the two instants, so that D x (1−x) is a smooth function of them however small the kink; D'
-/// by the slopes of splines (step_spline.hpp), φ ≤ 1 the instants after which that slope would
-/// vanish: a kink that has just begun has another one behind it, not an instant.
+///   slip begins              c = −k_u (w − s)            w = u ∓ g, which meets the slider
+///   slip ends, w turns       c = k_u (w − w(x))          w' = 0 there
+///   contact closes, opens    c = ±r of the load; of friction ±μ r where it slips, k_u (u − u(x))
+///                            where it sticks
 ///
-/// Slip begins where u − g or u + g meets the slider, contact closes and opens where r vanishes;
-/// where slip ends there is no kink. Taking (1) off the two samples around each leaves a force
-/// whose error falls with n³, and which does not jump where a kink passes an instant.
+/// u and r are cubics from one instant to the next (step_spline.hpp), so that c is one, and T is
+/// taken for the cubic through the four instants around: (1) is then exact, however close kinks
+/// follow each other. Taking it off these samples leaves a force whose error falls with n³, also
+/// where a stick is shorter than a step, and which does not jump where a kink passes an instant.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "contact/sampled/runs.hpp"
+#include "contact/sampled/step_spline.hpp"
 
 namespace microslip::contact::sampled {
 
@@ -51,43 +57,47 @@ struct LineColumns {
                                                 const LineColumns& columns, double side,
                                                 std::size_t now, std::size_t n);
 
+/// The slopes of a cubic at one place: first, second and third derivative, by instants.
+using Slopes = std::array<double, 3>;
+
 struct Kink {
-  enum class Kind : std::int8_t { none, slips, closes, opens };
-  Kind kind = Kind::none;
-  std::size_t before = 0;  ///< instants around it
-  std::size_t now = 0;
-  double share = 0.0;     ///< x in [0, 1]
-  double friction = 0.0;  ///< [ ] of (1) for f_p [N/m²]
-  double load = 0.0;      ///< for n
+  /// `passes`: an instant within a stick shorter than a step, where two splines meet.
+  enum class Kind : std::int8_t { slips, ends_slip, closes, opens, passes };
+  /// What left the slider where it is met as slip begins.
+  enum class Slider : std::int8_t { run, turn, landing };
+
+  Kind kind = Kind::slips;
+  Slider slider = Slider::run;
+  std::size_t now = 0;  ///< the instant behind
+  double share = 0.0;   ///< x in [0, 1]
   /// Of the limit μn along which friction leaves or meets the kink, 1 or −1; 0: it sticks, closing.
   double side = 0.0;
-  double force = 0.0;        ///< of `closes`: f_p at the instant behind
-  double stick_slope = 0.0;  ///< of `closes`: of u at the kink, by instants
-  double stick_bend = 0.0;
-  /// Of u ∓ g where slip begins, of r elsewhere: over the step, by instants at the kink.
-  double rise = 0.0;
-  double slope = 0.0;
-  double bend = 0.0;
-  double damping = 0.0;  ///< φ
-
-  /// x (1−x)/2 and its derivative.
-  [[nodiscard]] double weight() const { return 0.5 * share * (1.0 - share); }
-  [[nodiscard]] double weight_slope() const { return 0.5 - share; }
-  /// Of φ D' by D': φ falls with it.
-  [[nodiscard]] double late() const { return damping < 1.0 ? 2.0 * damping : damping; }
+  Slopes friction{};  ///< of c of f_p [N/m²]
+  Slopes load{};      ///< of n
+  double turn = 0.0;  ///< x of the end of slip that left the slider
 };
 
-/// In the step in which a run ends: what sticks and opens slips in between.
-struct RunEnd {
-  Kink slip;
-  Kink contact;
+/// Of one point, in order of time.
+struct Kinks {
+  std::vector<Kink> all;
+  std::vector<std::size_t> first;  ///< by run, and their number; none where there is one run
+
+  /// In the step in which a run ends.
+  [[nodiscard]] std::span<const Kink> at_end_of(std::size_t run) const {
+    if (first.empty()) return {};
+    return {all.data() + first[run], all.data() + first[run + 1]};
+  }
 };
 
-/// @param n  instants.   @param ends  one of each run, none of a single one; written whole.
+/// (1) by c', c'', c''' (columns) and T, T', T'', T''' (rows): C(i+l, l) β_{i+l}.
+using KinkMoments = std::array<std::array<double, 3>, 4>;
+[[nodiscard]] KinkMoments kink_moments(double x);
+
+/// @param n  instants.   @param kinks  written whole.
 void find_kinks(const SmoothPoint& point, const std::vector<Run>& runs, const LineColumns& columns,
-                std::size_t n, std::vector<RunEnd>& ends);
+                std::size_t n, Kinks& kinks);
 
-/// Takes (1) off the samples. @param friction, normal  columns of a block.
-void mend(const std::vector<RunEnd>& ends, double* friction, double* normal);
+/// Takes (1) off the samples. @param friction, normal  columns of a block, n instants.
+void mend(const Kinks& kinks, std::size_t n, double* friction, double* normal);
 
 }  // namespace microslip::contact::sampled

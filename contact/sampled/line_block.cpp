@@ -91,8 +91,8 @@ SmoothPoint LineBlock::smooth_point(std::size_t place) const {
 
 void LineBlock::mend_kinks(std::size_t n_points) {
   for (std::size_t p = 0; p < n_points; ++p) {
-    find_kinks(smooth_point(p), runs_[p], columns(p), instants_->size(), ends_[p]);
-    mend(ends_[p], friction_.data() + p, normal_.data() + p);
+    find_kinks(smooth_point(p), runs_[p], columns(p), instants_->size(), kinks_[p]);
+    mend(kinks_[p], instants_->size(), friction_.data() + p, normal_.data() + p);
   }
 }
 
@@ -180,7 +180,7 @@ LineColumns LineBlock::columns(std::size_t place) const {
 const LineDerivatives& LineBlock::derivatives(std::size_t place) {
   derivatives_.reset(*instants_);
   if (simple_) {
-    derivatives_.smooth(smooth_point(place), runs_[place], ends_[place], columns(place));
+    derivatives_.smooth(smooth_point(place), runs_[place], kinks_[place], columns(place));
   } else {
     derivatives_.any_surface(slopes_[place], closeness_by_approach_[place], frequency_,
                              runs_[place], columns(place));

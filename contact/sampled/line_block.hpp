@@ -59,7 +59,7 @@ class LineBlock {
       stiffness_{}, coefficient_{}, closeness_by_approach_{};
   std::array<std::vector<InstantSlopes>, block_size> slopes_;
   std::array<std::vector<Run>, block_size> runs_;
-  std::array<std::vector<RunEnd>, block_size> ends_;
+  std::array<Kinks, block_size> kinks_;
   LineDerivatives derivatives_;
 };
 

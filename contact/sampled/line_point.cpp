@@ -39,7 +39,7 @@ void LineDerivatives::reset(const Instants& instants) {
   for (auto* moments : {&stick_, &limit_, &rate_, &normal_, &part_}) {
     moments->resize(instants.n_moments());
   }
-  for (auto* row : {&phase_, &b_, &change_, &slope_, &moved_, &row_}) row->resize(n_rows_);
+  for (auto* row : {&phase_, &b_, &moved_, &row_}) row->resize(n_rows_);
   products_.reset(instants.n_harmonics());
 }
 
@@ -176,31 +176,41 @@ void LineDerivatives::sum_part(const Run& run) {
 }
 
 void LineDerivatives::smooth(const SmoothPoint& point, const std::vector<Run>& runs,
-                             const std::vector<RunEnd>& ends, const LineColumns& columns) {
+                             const Kinks& kinks, const LineColumns& columns) {
   clear();
   point_ = point;
   const double limit = point.friction_coefficient * point.normal_stiffness;
   for (std::size_t j = 0; j < runs.size(); ++j) {
     const Run& run = runs[j];
-    if (run.state == InstantState::separated) continue;
-    const bool sticks = run.state == InstantState::stick;
-    sum_part(run);
-    add(normal_, point.normal_stiffness, part_.data());
     std::fill(phase_.begin(), phase_.end(), 0.0);
-    if (sticks) {
-      hold_part();
-    } else {
-      add(limit_, sign_of(run.state) * limit, part_.data());
+    if (run.state != InstantState::separated) {
+      sum_part(run);
+      add(normal_, point.normal_stiffness, part_.data());
     }
-    if (!ends.empty()) {
-      const Kink& first = ends[j > 0 ? j - 1 : ends.size() - 1].contact;
-      if (first.kind == Kink::Kind::closes) add_closing(first, run);
-      if (ends[j].slip.kind == Kink::Kind::slips) add_slip(ends[j].slip, run, columns);
-      if (ends[j].contact.kind == Kink::Kind::opens) add_opening(ends[j].contact);
-    }
+    const bool sticks = run.state == InstantState::stick;
+    if (sticks) hold_part();
+    if (slips(run.state)) add(limit_, sign_of(run.state) * limit, part_.data());
+    add_kinks(kinks.at_end_of(j), columns);
     if (sticks && point.tangential_stiffness > 0.0) add_stuck(run, columns);
   }
   sum_up(0.0);
+}
+
+void LineDerivatives::add_kinks(std::span<const Kink> kinks, const LineColumns& columns) {
+  for (const Kink& kink : kinks) {
+    switch (kink.kind) {
+      case Kink::Kind::slips:
+      case Kink::Kind::ends_slip:
+        add_slip(kink, columns);
+        break;
+      case Kink::Kind::closes:
+      case Kink::Kind::opens:
+        add_contact(kink);
+        break;
+      case Kink::Kind::passes:  // of higher order
+        break;
+    }
+  }
 }
 
 /// k (u − s) of the instants of the run, the part of s in `phase_`.
@@ -231,106 +241,97 @@ void LineDerivatives::add_stuck(const Run& run, const LineColumns& columns) {
   }
 }
 
-/// P = T(θ_x) between the two instants, Q its change from one to the other,
-/// and its slope by the spline.
-void LineDerivatives::place(const Kink& kink) {
-  const std::size_t n = instants_->size();
-  const std::array<double, 4> shares = StepSpline::slope_shares(kink.share);
-  std::fill(slope_.begin(), slope_.end(), 0.0);
-  for (std::size_t j = 0; j < shares.size(); ++j) {
-    add(slope_, shares[j], instants_->basis((kink.now + n + j - 2) % n));
+/// What mend() takes off, with T a line between the two instants around the kink.
+/// With c = q (w − s) the derivative of (1) of kinks.hpp is, the place moving by
+/// dx = (ds − dw(x))/w',
+///
+///   q Σ_i dw^(i)(x) Σ_l C(i+l, l) β_{i+l} T^(l)(x) − β_0 T(x) q w' dx
+///
+/// @param by_u, by_v  q times dw by u and by v.
+/// @param moves       whether dw(x) moves the place; what ds does is added elsewhere.
+void LineDerivatives::add_kink(const Kink& kink, double by_u, double by_v, bool moves) {
+  const double x = kink.share;
+  const KinkMoments moments = kink_moments(x);
+  const std::array orders{StepSpline::slope_shares(x), StepSpline::bend_shares(x),
+                          StepSpline::third_shares};
+  const std::array<double, 4> here = StepSpline::shares(x);
+  const std::array<double, 2> value{1.0 - x, x};
+  constexpr std::array<double, 2> slope{-1.0, 1.0};
+  for (std::size_t k = 0; k < value.size(); ++k) {
+    std::array<double, 4> weights{};
+    for (std::size_t j = 0; j < weights.size(); ++j) {
+      weights[j] = moves ? (0.5 - x) * value[k] * here[j] : 0.0;
+      for (std::size_t i = 0; i < orders.size(); ++i) {
+        weights[j] -= (value[k] * moments[0][i] + slope[k] * moments[1][i]) * orders[i][j];
+      }
+    }
+    sum_around(kink.now, weights);
+    const double* T = instants_->basis(k == 0 ? before(kink.now) : kink.now);
+    moved_.assign(T, T + n_rows_);
+    add_outer(moved_, b_, by_u, by_v);
   }
-  const double* T0 = instants_->basis(kink.before);
+}
+
+/// Of the basis at the four instants around a step, to `b_`.
+void LineDerivatives::sum_around(std::size_t now, const std::array<double, 4>& weights) {
+  const std::array<std::size_t, 4> at = instants_around(now, instants_->size());
+  std::fill(b_.begin(), b_.end(), 0.0);
+  for (std::size_t j = 0; j < weights.size(); ++j) add(b_, weights[j], instants_->basis(at[j]));
+}
+
+/// T(x), a line between the two instants, times a factor, to `moved_`.
+void LineDerivatives::at_kink(const Kink& kink, double factor) {
+  const double* T0 = instants_->basis(before(kink.now));
   const double* T1 = instants_->basis(kink.now);
   for (std::size_t l = 0; l < n_rows_; ++l) {
-    b_[l] = (1.0 - kink.share) * T0[l] + kink.share * T1[l];
-    change_[l] = T1[l] - T0[l];
+    moved_[l] = factor * ((1.0 - kink.share) * T0[l] + kink.share * T1[l]);
   }
 }
 
-/// The derivative of what is taken off, with w = u ∓ g, its rise Δ over the step,
-/// x Δ = s − w_before, b = x (1−x)/2:
-///
-///   d k (b Δ − φ w'/12) P = k [ b P dΔ − φ P dw'/12
-///                               + (b' P + b Q − φ (w'' P + w' Q)/(12 Δ)) (ds − dw_x) ]
-void LineDerivatives::add_slip(const Kink& kink, const Run& run, const LineColumns& columns) {
-  place(kink);
-  const double k_u = point_.tangential_stiffness;
-  const double weight = k_u * kink.weight();
-  const double late = k_u / 12.0;
-  const double by_approach = -kink.side * point_.compliance() * point_.normal_stiffness;
-  const double stay =
-      k_u * kink.weight_slope() - late * kink.late() * ratio_of(kink.bend, kink.rise);
-  const double move = weight - late * kink.damping * ratio_of(kink.slope, kink.rise);
-  for (std::size_t l = 0; l < n_rows_; ++l) moved_[l] = stay * b_[l] + move * change_[l];
-  for (std::size_t l = 0; l < n_rows_; ++l) {
-    slope_[l] = weight * change_[l] - late * kink.late() * slope_[l];
-  }
-  add_outer(b_, slope_, 1.0, by_approach);
-  add_outer(moved_, b_, -1.0, -by_approach);
-  if (run.state == InstantState::stick) {
+/// Slip begins or ends; where it begins the part of a slider that the run left goes to `phase_`.
+void LineDerivatives::add_slip(const Kink& kink, const LineColumns& columns) {
+  const bool begins = kink.kind == Kink::Kind::slips;
+  const double q = begins ? -point_.tangential_stiffness : point_.tangential_stiffness;
+  const double width = point_.compliance() * point_.normal_stiffness;
+  add_kink(kink, q, -q * kink.side * width, begins);
+  if (!begins) return;
+  at_kink(kink, q * (kink.share - 0.5));
+  if (kink.slider == Kink::Slider::run) {
     add(phase_, 1.0, moved_.data());
+  } else if (kink.slider == Kink::Slider::landing) {
+    add_anchor(smooth_landing(kink.now, point_.normal_stiffness, columns), moved_);
   } else {
-    add_anchor(pushed(kink.before, columns), moved_);
+    const std::size_t n = instants_->size();
+    add_anchor({.first = (kink.now + n - 2) % n,
+                .share = StepSpline::shares(kink.turn),
+                .by_approach = kink.side * width},  // slipped the other way
+               moved_);
   }
 }
 
-/// Moments for the instants that the sums count too much or too little; the antisymmetric part of
-/// the derivative, of second order, has no place there.
-void LineDerivatives::add_load(const Kink& kink, double sign) {
-  const double weight = sign * point_.normal_stiffness *
-                        (kink.weight_slope() - kink.late() * ratio_of(kink.bend, kink.rise) / 12.0);
-  add(normal_, weight * (1.0 - kink.share), instants_->moment_basis(kink.before));
-  add(normal_, weight * kink.share, instants_->moment_basis(kink.now));
-}
-
-/// The friction is a share of the load. Its derivative as add_slip(), with r against 0.
-void LineDerivatives::add_opening(const Kink& kink) {
-  place(kink);
-  add_load(kink, -1.0);
-  const double limit = -kink.side * point_.friction_coefficient * point_.normal_stiffness;
-  const double late = kink.late() / 12.0;
-  const double stay = kink.weight_slope() - late * ratio_of(kink.bend, kink.rise);
-  const double move = kink.weight() - kink.damping * ratio_of(kink.slope, kink.rise) / 12.0;
-  for (std::size_t l = 0; l < n_rows_; ++l) {
-    moved_[l] = stay * b_[l] + move * change_[l];
-    slope_[l] = late * slope_[l] - kink.weight() * change_[l];
-  }
-  add_outer(moved_, b_, 0.0, limit);
-  add_outer(b_, slope_, 0.0, limit);
-}
-
-/// −d(x f P/2) with f at the instant behind, and what the slope at the kink adds:
-/// that of k u or that of the limit.
-void LineDerivatives::add_closing(const Kink& kink, const Run& run) {
-  place(kink);
-  add_load(kink, 1.0);
-  const double x = kink.share;
-  const double k_u = point_.tangential_stiffness;
+/// Contact opens or closes. Of the load moments for the instants that the sums count too much or
+/// too little; the antisymmetric part of the derivative, of second order, has no place there.
+void LineDerivatives::add_contact(const Kink& kink) {
   const double k_v = point_.normal_stiffness;
-  const double* T = instants_->basis(kink.now);
-  moved_.assign(T, T + n_rows_);
-  if (run.state == InstantState::stick) {
-    add_outer(b_, moved_, -0.5 * x * k_u, 0.0);
-    add(phase_, 0.5 * x * k_u, b_.data());
-  } else {
-    const double limit = sign_of(run.state) * point_.friction_coefficient * k_v;
-    add_outer(b_, moved_, 0.0, -0.5 * x * limit);
+  const double sign = kink.kind == Kink::Kind::closes ? 1.0 : -1.0;
+  const double x = kink.share;
+  const double weight = sign * k_v * (0.5 - x);
+  add(normal_, weight * (1.0 - x), instants_->moment_basis(before(kink.now)));
+  add(normal_, weight * x, instants_->moment_basis(kink.now));
+  if (point_.tangential_stiffness == 0.0) return;
+  if (kink.side != 0.0) {
+    add_kink(kink, 0.0, sign * kink.side * point_.friction_coefficient * k_v, true);
+    return;
   }
-  const bool sticks = kink.side == 0.0;
-  const double limit = kink.side * point_.friction_coefficient * k_v;
-  const double late = (sticks ? kink.damping : kink.late()) / 12.0;
-  add_outer(b_, slope_, sticks ? late * k_u : 0.0, late * limit);
-  // The place moves by −P dr/Δ.
-  const double force = 0.5 * kink.force;
-  const double slope = sticks ? k_u * kink.stick_slope : limit / k_v * kink.slope;
-  const double bend = sticks ? k_u * kink.stick_bend : limit / k_v * kink.bend;
-  const double by_approach = ratio_of(k_v, kink.rise);
-  for (std::size_t l = 0; l < n_rows_; ++l) {
-    moved_[l] =
-        (force - late * bend) * b_[l] + (force * x - kink.damping * slope / 12.0) * change_[l];
-  }
-  add_outer(moved_, b_, 0.0, by_approach);
+  // It sticks from where r vanishes: dx = −dr/r'.
+  add_kink(kink, point_.tangential_stiffness, 0.0, false);
+  sum_around(kink.now, StepSpline::shares(x));
+  at_kink(kink, (0.5 - x) * ratio_of(kink.friction[0], kink.load[0]));
+  add_outer(moved_, b_, 0.0, k_v);
+}
+
+std::size_t LineDerivatives::before(std::size_t now) const {
+  return now > 0 ? now - 1 : instants_->size() - 1;
 }
 
 void LineDerivatives::any_surface(const std::vector<InstantSlopes>& slopes,

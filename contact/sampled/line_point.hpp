@@ -15,7 +15,9 @@
 /// their derivatives are complete but for parts of second order.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "contact/lanes/product_kernels.hpp"
@@ -40,8 +42,8 @@ struct InstantSlopes {
 class LineDerivatives {
  public:
   void reset(const Instants& instants);
-  void smooth(const SmoothPoint& point, const std::vector<Run>& runs,
-              const std::vector<RunEnd>& ends, const LineColumns& columns);
+  void smooth(const SmoothPoint& point, const std::vector<Run>& runs, const Kinks& kinks,
+              const LineColumns& columns);
   /// @param slopes  n.   @param closeness_by_approach  dr/dv.
   void any_surface(const std::vector<InstantSlopes>& slopes, double closeness_by_approach,
                    double frequency, const std::vector<Run>& runs, const LineColumns& columns);
@@ -78,17 +80,19 @@ class LineDerivatives {
   void add_anchor(const Anchor& anchor, const std::vector<double>& a);
   void hold_part();
   void add_stuck(const Run& run, const LineColumns& columns);
-  void place(const Kink& kink);
-  void add_slip(const Kink& kink, const Run& run, const LineColumns& columns);
-  void add_load(const Kink& kink, double sign);
-  void add_opening(const Kink& kink);
-  void add_closing(const Kink& kink, const Run& run);
+  void add_kinks(std::span<const Kink> kinks, const LineColumns& columns);
+  void add_kink(const Kink& kink, double by_u, double by_v, bool moves);
+  void add_slip(const Kink& kink, const LineColumns& columns);
+  void add_contact(const Kink& kink);
+  void sum_around(std::size_t now, const std::array<double, 4>& weights);
+  void at_kink(const Kink& kink, double factor);
   void sum_up(double frequency);
   [[nodiscard]] Anchor landing(std::size_t before, std::size_t now, double closeness_by_approach,
                                const LineColumns& columns) const;
   [[nodiscard]] Anchor smooth_landing(std::size_t now, double normal_stiffness,
                                       const LineColumns& columns) const;
   [[nodiscard]] Anchor pushed(std::size_t now, const LineColumns& columns) const;
+  [[nodiscard]] std::size_t before(std::size_t now) const;
   [[nodiscard]] std::size_t last_push(const LineColumns& columns) const;
 
   const Instants* instants_ = nullptr;
@@ -104,8 +108,6 @@ class LineDerivatives {
   std::vector<double> part_;
   std::vector<double> phase_;  // a
   std::vector<double> b_;
-  std::vector<double> change_;
-  std::vector<double> slope_;
   std::vector<double> moved_;
   std::vector<double> row_;
   SmoothPoint point_;

@@ -26,6 +26,15 @@ struct StepSpline {
     square = 3.0 * rise - 2.0 * m1 - m2;
     cube = m1 + m2 - 2.0 * rise;
   }
+  /// w + factor r.
+  [[nodiscard]] StepSpline plus(double factor, const StepSpline& r) const {
+    StepSpline sum = *this;
+    sum.begin += factor * r.begin;
+    sum.slope += factor * r.slope;
+    sum.square += factor * r.square;
+    sum.cube += factor * r.cube;
+    return sum;
+  }
   /// x in [0, 1].
   [[nodiscard]] double at(double x) const { return begin + x * (slope + x * (square + x * cube)); }
   [[nodiscard]] double slope_at(double x) const {
@@ -60,14 +69,26 @@ struct StepSpline {
     const double blend = 6.0 * x * (1.0 - x);
     return {-out, -blend - in, blend + out, in};
   }
+  /// ∂w''(x)/∂w.
+  [[nodiscard]] static constexpr std::array<double, 4> bend_shares(double x) {
+    return {2.0 - 3.0 * x, 9.0 * x - 5.0, 4.0 - 9.0 * x, 3.0 * x - 1.0};
+  }
+  /// ∂w'''/∂w.
+  static constexpr std::array<double, 4> third_shares{-3.0, 9.0, -9.0, 3.0};
 };
 
-/// Of a column of a block, around the step that ends at instant `now` of n.
+/// The four instants around the step that ends at `now` of n.
+[[nodiscard]] inline std::array<std::size_t, 4> instants_around(std::size_t now, std::size_t n) {
+  const std::size_t before = now > 0 ? now - 1 : n - 1;
+  return {before > 0 ? before - 1 : n - 1, before, now, now + 1 < n ? now + 1 : 0};
+}
+
+/// Of a column of a block, there.
 [[nodiscard]] inline std::array<double, 4> around_step(const double* column, std::size_t now,
                                                        std::size_t n) {
-  std::array<double, 4> w{};
-  for (std::size_t j = 0; j < 4; ++j) w[j] = column[(now + n + j - 2) % n * block_size];
-  return w;
+  const std::array<std::size_t, 4> at = instants_around(now, n);
+  return {column[at[0] * block_size], column[at[1] * block_size], column[at[2] * block_size],
+          column[at[3] * block_size]};
 }
 
 }  // namespace microslip::contact::sampled
