@@ -26,6 +26,10 @@ constexpr double step_tolerance = 1e-9;
 // by the root of the error of M.
 constexpr double real_angle = 1e-2;
 
+// Differences follow two periods a coordinate, each point event by event: 600 coordinates times
+// points take about a second.
+constexpr Eigen::Index most_differences = 600;
+
 TimeOptions period_options() {
   TimeOptions options;
   options.step_tolerance = step_tolerance;
@@ -214,6 +218,8 @@ FloquetMultipliers multipliers_near(const TimeSystem& system, const Harmonics& q
   if (!missed) return result;
   result.distance = missed->norm();
   const bool is_linear = system.contact() == nullptr || system.contact()->is_held_linear();
+  const auto n_points = static_cast<Eigen::Index>(at.memory.state.size());
+  if (!is_linear && coordinates.size() * n_points > most_differences) return result;
   // Sliders shake down to where the motion leaves them: what one still moves by then may be the
   // error of the series.
   if (is_linear) watch.forget_moves_below(result.distance);

@@ -36,8 +36,8 @@ struct FloquetMultipliers {
 /// @param scene      with `transient`, or linear.
 /// @param frequency  ω [rad/s].
 /// @param q          harmonics of a solution.
-/// @param most       rows of M at most, each of which costs two periods where M is differenced;
-///                   beyond, M is not made.
+/// @param most       rows of M at most; beyond, M is not made. Where it is differenced each costs
+///                   two periods, and rows times points are at most 600.
 [[nodiscard]] FloquetMultipliers floquet_multipliers(const Scene& scene, double frequency,
                                                      const Harmonics& q, Eigen::Index most);
 

@@ -60,7 +60,8 @@ struct StabilityReport {
 enum class PeriodMapEffort {
   /// Modes, two states each, and points of friction along a line together at most 16: some 2 ms.
   every_point,
-  /// 60 states that move in the period, 100 points: 0.01 to 2 s, for peaks and single solutions.
+  /// 60 states that move in the period, 100 points; states times points at most 600 where periods
+  /// are differenced (floquet.hpp): 0.01 to 2 s, for peaks and single solutions.
   few_points,
 };
 
