@@ -1,10 +1,11 @@
 """A run in ParaView: the blade in motion on the left, the contact map beside it, colours and units set, time is the phase.
 
     paraview --script=open_run.py          the folder of the run in the environment variable MICROSLIP_RUN
-    pvbatch open_run.py RUN_FOLDER [NAME [PICTURE.png]]
+    pvbatch open_run.py RUN_FOLDER [NAME [PICTURE.png [PHASE]]]
     as a macro (Macros, Import new macro): the run of the file that is selected in the pipeline
 
-NAME is that of a map or a motion, preload_100_peak; the first of the run where not given. ParaView 5.11.
+NAME is that of a map or a motion, preload_100_peak; the first of the run where not given. PHASE in
+degrees, the nearest there is; 0 where not given. ParaView 5.11.
 """
 import glob
 import json
@@ -29,13 +30,17 @@ def folder_of_selected():
 
 
 def asked():
-    """Folder, name and picture, as given; None for what is not."""
+    """Folder, name, picture and phase [deg], as given; None for what is not, but 0 for the phase."""
     words = [word for word in sys.argv[1:] if not word.startswith("-")]
     folder = words[0] if words else os.environ.get("MICROSLIP_RUN") or folder_of_selected()
     if not folder or not os.path.isdir(folder):
         sys.exit(f"{folder or 'no folder given'}: give the folder of a run: pvbatch open_run.py RUN_FOLDER, or MICROSLIP_RUN, "
                  "or select a file of it in the pipeline")
-    return folder, words[1] if len(words) > 1 else None, words[2] if len(words) > 2 else None
+    name, picture, phase = (words[at] if len(words) > at else None for at in (1, 2, 3))
+    try:
+        return folder, name, picture, float(phase or 0)
+    except ValueError:
+        sys.exit(f"{phase}: give the phase in degrees")
 
 
 def stem(path):
@@ -83,6 +88,7 @@ def show_motion(file, view):
     warp.ScaleFactor = SHARE_OF_SIZE * size_of(source) / largest if largest > 0 else 1.0
     shown = simple.Show(warp, view)
     simple.ColorBy(shown, ("POINTS", "displacement_m", "Magnitude"))
+    shown.Ambient, shown.Diffuse = 0.5, 0.5  # shade, but colours near those of the bar
     table = simple.GetColorTransferFunction("displacement_m")
     table.ApplyPreset("Viridis (matplotlib)", True)
     table.RescaleTransferFunction(0.0, largest or 1.0)
@@ -147,7 +153,14 @@ def new_view():
     return view
 
 
-def open_run(folder, name=None):
+def go_to(phase):
+    scene = simple.GetAnimationScene()
+    scene.UpdateAnimationUsingDataTimeSteps()
+    phases = np.atleast_1d(scene.TimeKeeper.TimestepValues)
+    scene.AnimationTime = phases[np.abs(phases - phase).argmin()]
+
+
+def open_run(folder, name=None, phase=0.0):
     """Two views side by side, one where the run has one of the two. The layout."""
     motion, contact = pair_of(folder, name)
     layout = simple.CreateLayout("microslip")
@@ -158,14 +171,14 @@ def open_run(folder, name=None):
             simple.AssignViewToLayout(view=view, layout=layout, hint=len(views))
             show(file, view)
             views.append(view)
-    simple.GetAnimationScene().UpdateAnimationUsingDataTimeSteps()
+    go_to(phase)
     simple.RenderAllViews()
     return layout
 
 
 if __name__ in ("__main__", "__vtkconsole__"):
-    run_folder, wanted, picture = asked()
-    opened = open_run(run_folder, wanted)
+    run_folder, wanted, picture, instant = asked()
+    opened = open_run(run_folder, wanted, instant)
     if picture:
         opened.SetSize(*SIZE)
         simple.SaveScreenshot(picture, opened, ImageResolution=SIZE)
