@@ -1,8 +1,8 @@
 #!/bin/sh
 # Installs the Debian packages microslip needs, those only that are missing. Safe to run again.
 #
-#   share/scripts/setup.sh [--tests | --tidy | --fuzz | --coverage | --compilers]     --tests: also what the tests alone need
-#                                                                       others: what tidy.sh, fuzz.sh, … need
+#   share/scripts/setup.sh [--tests | --tidy | --fuzz | --coverage | --compilers | --screen]
+#                           --tests: also what the tests alone need; --screen: what paraview.sh needs; others: what tidy.sh, fuzz.sh, … need
 #
 # Works as root or with sudo; says what it does.
 set -eu
@@ -24,8 +24,9 @@ case "${1:-}" in
   --tidy) wanted="$wanted clang-tidy" ;;
   --fuzz) wanted="$wanted clang libclang-rt-dev" ;;
   --compilers) wanted="$wanted clang" ;;
+  --screen) wanted="$wanted xvfb xauth" ;;
   --coverage) wanted="$wanted $test_programs gcovr" ;;
-  *) echo "usage: setup.sh [--tests | --tidy | --fuzz | --coverage | --compilers]" >&2; exit 1 ;;
+  *) echo "usage: setup.sh [--tests | --tidy | --fuzz | --coverage | --compilers | --screen]" >&2; exit 1 ;;
 esac
 
 is_installed() {

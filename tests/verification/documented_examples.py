@@ -44,6 +44,7 @@ DEAR = {
     ("interfaces.md", "python3 tests/hard_cases/killed_runs.py"): "an hour: a thousand runs",
     ("modes.md", "share/scripts/calculix_matrices.py"): "needs files that CalculiX stores",
     ("paraview.md", "paraview"): "needs ParaView; verification.python_package runs the script where it is there",
+    ("paraview.md", "share/scripts/paraview.sh"): "fetches packages; share/scripts/test.sh does",
     ("scenes.md", "build/bin/microslip run share/scenes/NAME.toml"): "NAME stands for a scene; `check` of one is enough",
     ("truth.md", "share/scripts/truth_table.py"): "half an hour, and writes the page",
     ("verification.md", "ctest"): "NAME stands for a test",
@@ -51,7 +52,6 @@ DEAR = {
 }
 # Not even looked at.
 UNTRIED = {
-    ("paraview.md", "apt-get download"): "fetches packages",
     ("python.md", "python3 -m venv"): "pip may fetch packages; verification.python_package installs it without a network",
 }
 # (page, begin): what is no example but stands like one.
@@ -88,7 +88,7 @@ SCENES = {
 }
 QUICK = {"model": {"element_size": "15 mm"}, "response": {"harmonics": 1, "preload": [300]}}
 COMMANDS = re.compile(r"(?:\w+=\S* )?(?:build/bin/)?(?:microslip|mpirun|share/scripts/\S+|tests/\S+|python3|pip|ctest|cmake|ninja|make|paraview|pvbatch\S*|"
-                      r"apt-get|alias|export|for|scene=\S+|cd|git|docker)(?=\s|$)")
+                      r"alias|export|for|scene=\S+|cd|git|docker)(?=\s|$)")
 
 
 def pages():
