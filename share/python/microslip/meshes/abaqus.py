@@ -3,9 +3,13 @@
 meshio 5.0 is not used here: it forgets all but the last *NODE block, the numbers of elements, sets made of sets, what
 *NODE and *ELEMENT say of sets, and *SURFACE.
 """
+
+from __future__ import annotations
+
 import math
 import os
 import re
+from typing import Callable, Iterable, Iterator, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -13,6 +17,7 @@ from .content import (TYPES, Block, Content, Refused, boundary_faces, corners_of
                       require, rows_in, volumes)
 from .decks import open_deck
 
+Where = Tuple[str, int]  # file and line
 _SOLID = {"4": "tetra", "10": "tetra10", "8": "hexahedron", "20": "hexahedron20", "6": "wedge", "15": "wedge15",
           "5": "pyramid", "13": "pyramid13"}
 _SHELL = {"3": "triangle", "6": "triangle6", "4": "quad", "8": "quad8"}
@@ -28,7 +33,7 @@ _POINTLIKE = re.compile(r"MASS|ROTARYI|SPRING[12A]|DASHPOT[12A]|CONN3D2|DCOUP3D|
 _WITH_INPUT = re.compile(r"\*\s*(?:NODE|ELEMENT|NSET|ELSET|SURFACE)\s*,.*\bINPUT\s*=\s*([^,]+)", re.I)
 
 
-def read(path):
+def read(path: str) -> Content:
     """A Content. Raises Refused with file and line."""
     deck = _Deck(path)
     for card in _cards(_lines(path, os.path.dirname(os.path.abspath(path)), ())):
@@ -36,7 +41,7 @@ def read(path):
     return deck.content()
 
 
-def _type(name):
+def _type(name: str) -> Optional[str]:
     """Ours for theirs: C3D10MH is a tetra10, S4R a quad; None for what is no plain body, skin or line."""
     upper = name.upper()
     solid = re.fullmatch(r"C3D(\d+)[A-Z]*", upper)
@@ -49,7 +54,7 @@ def _type(name):
     return _LINE.get(line[1]) if line else None
 
 
-def _lines(path, folder, above):
+def _lines(path: str, folder: str, above: tuple[str, ...]) -> Iterator[tuple[Where, str]]:
     """Pairs (place, text) of a file and what it includes, without comments and blank lines."""
     keyword = ""  # that began on this line or one before
     with open_deck(path, above, "*INCLUDE") as file:
@@ -71,14 +76,14 @@ def _lines(path, folder, above):
                 yield from _included(data[1], folder, (*above, f"{path}:{number}"))
 
 
-def _included(name, folder, above):
+def _included(name: str, folder: str, above: tuple[str, ...]) -> Iterator[tuple[Where, str]]:
     return _lines(os.path.join(folder, name.strip().strip('"')), folder, above)
 
 
 class _Card:
     """A keyword with its parameters and data lines."""
 
-    def __init__(self, where, text):
+    def __init__(self, where: Where, text: str) -> None:
         words = [word.strip() for word in text[1:].split(",")]
         self.place = f"{where[0]}:{where[1]}"
         self.keyword = " ".join(words[0].upper().split())
@@ -88,27 +93,27 @@ class _Card:
             self.parameters[key.strip().upper()] = value.strip().strip('"')
         self.data = []  # (where, text)
 
-    def has(self, key):
+    def has(self, key: str) -> bool:
         return key in self.parameters
 
-    def get(self, key, preset=None):
+    def get(self, key: str, preset: str = "") -> str:
         return self.parameters.get(key, preset)
 
-    def name(self, key):
+    def name(self, key: str) -> str:
         require(self.get(key), f"{self.place}: *{self.keyword} without {key}=")
         return self.get(key)
 
-    def place_of(self, line):
+    def place_of(self, line: int) -> str:
         """Of a data line."""
         path, number = self.data[line][0]
         return f"{path}:{number}"
 
-    def rows(self):
+    def rows(self) -> Iterator[tuple[str, list[str]]]:
         """Place and words of every data line."""
         for where, text in self.data:
             yield f"{where[0]}:{where[1]}", [word.strip() for word in text.rstrip(",").split(",")]
 
-    def numbers(self, convert):
+    def numbers(self, convert: Callable[[str], float]) -> tuple[np.ndarray, np.ndarray]:
         """All numbers of the data lines and how many each line has. Raises Refused at the line that holds no number."""
         texts = [text.rstrip(", \t") for _, text in self.data]
         try:
@@ -124,7 +129,7 @@ class _Card:
             raise
 
 
-def _cards(lines):
+def _cards(lines: Iterable[tuple[Where, str]]) -> Iterator[_Card]:
     card = None
     continued = None
     for where, text in lines:
@@ -147,24 +152,24 @@ def _cards(lines):
 class _Sets:
     """Sets of numbers that may be made of other sets, named without regard to case; the first spelling stays."""
 
-    def __init__(self, kind):
+    def __init__(self, kind: str) -> None:
         self.kind = kind
         self._parts = {}    # upper-case name → [(place, numbers or a name)]
         self._spelling = {}
         self._hidden = set()
         self._ready = {}
 
-    def add(self, name, place, part, hidden=False):
+    def add(self, name: str, place: str, part: Union[str, np.ndarray], hidden: bool = False) -> None:
         key = name.upper()
         self._spelling.setdefault(key, name)
         if hidden:
             self._hidden.add(key)
         self._parts.setdefault(key, []).append((place, part))
 
-    def __contains__(self, name):
+    def __contains__(self, name: str) -> bool:
         return name.upper() in self._parts
 
-    def get(self, name, place, above=()):
+    def get(self, name: str, place: str, above: tuple[str, ...] = ()) -> np.ndarray:
         key = name.upper()
         if key not in self._parts:
             raise Refused(f'{place}: no {self.kind} set is named "{name}"; there are: '
@@ -176,17 +181,17 @@ class _Sets:
             self._ready[key] = np.unique(np.concatenate(parts).astype(np.int64))
         return self._ready[key]
 
-    def spelling(self, name):
+    def spelling(self, name: str) -> Optional[str]:
         """That of the file, None where there is no such set to be named."""
         key = name.upper()
         return None if key in self._hidden else self._spelling.get(key)
 
-    def named(self):
+    def named(self) -> dict[str, np.ndarray]:
         return {self._spelling[key]: self.get(key, "") for key in self._parts if key not in self._hidden}
 
 
 class _Deck:
-    def __init__(self, path):
+    def __init__(self, path: str) -> None:
         self.path = path
         self.nodes, self.coordinates, self.blocks = [], [], []
         self.origins = {"node": [], "element": []}  # (numbers, card, data line of each)
@@ -201,7 +206,7 @@ class _Deck:
         self.sections = []     # cards *SOLID SECTION
         self.later = []        # cards of the assembly: they speak of its parts
 
-    def take(self, card):
+    def take(self, card: _Card) -> None:
         if card.keyword in ("PART", "INSTANCE"):
             self._open(card)
         elif card.keyword in ("END PART", "END INSTANCE"):
@@ -213,14 +218,14 @@ class _Deck:
         else:
             self._take(card)
 
-    def _open(self, card):
+    def _open(self, card: _Card) -> None:
         self.inside = f"{card.keyword} {card.name('NAME').upper()}"
         require(self.inside not in self.parts, f"{card.place}: *{card.keyword} {card.get('NAME')} stands twice")
         self.parts[self.inside] = []
         if card.keyword == "INSTANCE":
             self._place_instance(card)
 
-    def _place_instance(self, card):
+    def _place_instance(self, card: _Card) -> None:
         """Only one."""
         self.instances.append(card)
         first = self.instances[0]
@@ -231,7 +236,7 @@ class _Deck:
         for part in (f"INSTANCE {card.name('NAME').upper()}", f"PART {card.get('PART', '').upper()}"):
             self.instanced = (self.instanced or []) + [part]
 
-    def _take(self, card):
+    def _take(self, card: _Card) -> None:
         if card.keyword in _COPIES:
             raise Refused(f"{card.place}: *{card.keyword} is not followed; write the mesh out node by node")
         if card.keyword in _TIES:
@@ -249,7 +254,7 @@ class _Deck:
         elif card.keyword == "SOLID SECTION":
             self.sections.append(card)
 
-    def _take_nodes(self, card):
+    def _take_nodes(self, card: _Card) -> None:
         require(card.get("SYSTEM", "R").upper() == "R",
                 f"{card.place}: *NODE, SYSTEM={card.get('SYSTEM')}: only rectangular coordinates are read")
         if not card.data:
@@ -269,11 +274,11 @@ class _Deck:
         if card.get("NSET"):
             self.node_sets.add(card.get("NSET"), card.place, numbers)
 
-    def places_of(self, kind, wanted):
+    def places_of(self, kind: str, wanted: int) -> list[str]:
         return [card.place_of(lines[row]) for numbers, card, lines in self.origins[kind]
                 for row in np.flatnonzero(numbers == wanted)]
 
-    def _take_elements(self, card):
+    def _take_elements(self, card: _Card) -> None:
         given = card.name("TYPE")
         own = _type(given)
         if _BEAM.match(given):
@@ -303,7 +308,7 @@ class _Deck:
         if card.get("ELSET"):
             self.element_sets.add(card.get("ELSET"), card.place, table[:, 0])
 
-    def _take_set(self, card, sets, key):
+    def _take_set(self, card: _Card, sets: _Sets, key: str) -> None:
         name, hidden = card.name(key), card.has("INTERNAL")
         sets.add(name, card.place, np.empty(0, dtype=np.int64), hidden)
         if card.has("GENERATE"):
@@ -321,11 +326,11 @@ class _Deck:
                     sets.add(name, place, self._own_name(word), hidden)
         sets.add(name, card.place, np.array(numbers, dtype=np.int64), hidden)
 
-    def _nodes_of(self, element_set, place):
+    def _nodes_of(self, element_set: str, place: str) -> np.ndarray:
         elements = self.element_sets.get(element_set, place)
         return np.concatenate([block.nodes[np.isin(block.numbers, elements)].ravel() for block in self.blocks])
 
-    def _own_name(self, word):
+    def _own_name(self, word: str) -> Union[str, np.ndarray]:
         """A name, or a number, said with the instance before it."""
         word = word.strip('"')
         for instance in self.instances:
@@ -333,13 +338,13 @@ class _Deck:
                 word = word[len(instance.name("NAME")) + 1:]
         return np.array([int(word)]) if word.isdigit() else word
 
-    def _take_surface(self, card):
+    def _take_surface(self, card: _Card) -> None:
         name = card.name("NAME")
         before = self.surfaces.setdefault(name.upper(), card)
         require(before is card, f'{card.place}: surface "{name}" is there already, at {before.place}')
         require(not card.has("COMBINE"), f'{card.place}: surface "{name}": COMBINE is not followed')
 
-    def content(self):
+    def content(self) -> Content:
         self._settle_parts()
         require(self.nodes, f"{self.path}: no *NODE with coordinates in it: is it a deck of Abaqus or CalculiX?")
         require(self.blocks, f"{self.path}: no *ELEMENT with data in it")
@@ -362,7 +367,7 @@ class _Deck:
         content.element_sets = self.element_sets.named()
         return content
 
-    def _leave_out_loose(self, content):
+    def _leave_out_loose(self, content: Content) -> None:
         """Shells on a face of a solid name it, trusses on an edge; others hold something together."""
         for block in content.blocks:
             kind = TYPES[block.type]
@@ -374,14 +379,14 @@ class _Deck:
                 on_edge = np.any([rows_in(pair, ends_of_edges(content)) for pair in pairs], axis=0)
                 self._leave_out(block.numbers[~on_edge], "a truss that lies on no edge of a solid")
 
-    def _leave_out(self, elements, what):
+    def _leave_out(self, elements: np.ndarray, what: str) -> None:
         beams = [numbers for numbers, card, _ in self.origins["element"] if _BEAM.match(card.get("TYPE"))]
         elements = np.setdiff1d(elements, np.concatenate(beams)) if beams else elements  # these are left out already
         if len(elements):
             leave_out(self.left_out, self.places_of("element", elements[0])[0], f"element {elements[0]}, {what}",
                       "take it out of the file", len(elements))
 
-    def _leave_out_sections(self, content):
+    def _leave_out_sections(self, content: Content) -> None:
         """A truss with a cross-section carries load, on an edge as well."""
         trusses = [block.numbers for block in content.blocks if TYPES[block.type].dimension == 1]
         for card in self.sections if trusses else ():
@@ -391,7 +396,7 @@ class _Deck:
                 leave_out(self.left_out, card.place, f'the cross-section of trusses in "{name}"',
                           "take it out of the file, where they only name edges")
 
-    def _refuse_names_of_other_case(self):
+    def _refuse_names_of_other_case(self) -> None:
         """For Abaqus names of other case are one, here two; a set and a surface may share one name."""
         for card in self.surfaces.values():
             name = card.name("NAME")
@@ -399,7 +404,7 @@ class _Deck:
             require(other in (None, name), f'{card.place}: surface "{name}" and the set "{other}" differ in case alone, which Abaqus '
                                            "ignores; rename one")
 
-    def _settle_parts(self):
+    def _settle_parts(self) -> None:
         """Of several parts the one that the instance is of."""
         used = self.instanced or [name for name in self.parts if name.startswith("PART ")]
         require(self.instanced or len(used) <= 1,
@@ -411,7 +416,7 @@ class _Deck:
         for card in self.later:  # nodes of the assembly lie where they lie
             self._take(card)
 
-    def _add_node_surface(self, card):
+    def _add_node_surface(self, card: _Card) -> None:
         name = card.name("NAME")
         for place, words in card.rows():
             part = self._own_name(words[0])
@@ -421,7 +426,7 @@ class _Deck:
                         f'{place}: surface "{name}" and a node set of that name hold other nodes; rename one')
                 self.node_sets.add(name, place, part)
 
-    def _faces(self, card, content, outer):
+    def _faces(self, card: _Card, content: Content, outer: np.ndarray) -> np.ndarray:
         """Elements and faces of *SURFACE, TYPE=ELEMENT: lines "elements, S3", or "elements" for what is free of them."""
         found = [np.empty((0, 2), dtype=np.int64)]
         for place, words in card.rows():
@@ -438,7 +443,7 @@ class _Deck:
         return np.unique(np.concatenate(found), axis=0)
 
     @staticmethod
-    def _require_faces(card, place, content, elements, face):
+    def _require_faces(card: _Card, place: str, content: Content, elements: np.ndarray, face: int) -> None:
         """Of every element the face of that number."""
         surface = f'{place}: surface "{card.name("NAME")}"'
         missing = np.setdiff1d(elements, np.concatenate([block.numbers for block in content.blocks]))
@@ -448,7 +453,7 @@ class _Deck:
             require(not len(without), f"{surface}: element {next(iter(without), None)}, a {block.type}, has no face S{face + 1}")
 
 
-def _move_of(card):
+def _move_of(card: _Card) -> Optional[Callable[[np.ndarray], np.ndarray]]:
     """What *INSTANCE does to its part: a line moves it, a second one turns it about an axis through two points by degrees."""
     steps = []
     for place, words in card.rows():
@@ -468,7 +473,7 @@ def _move_of(card):
     return lambda places: _moved(places, steps)
 
 
-def _moved(places, steps):
+def _moved(places: np.ndarray, steps: Sequence[np.ndarray]) -> np.ndarray:
     moved = places + steps[0]
     if len(steps) == 1:
         return moved
@@ -478,7 +483,7 @@ def _moved(places, steps):
     return origin + np.cos(angle) * arm + np.sin(angle) * np.cross(axis, arm) + (1 - np.cos(angle)) * np.outer(arm @ axis, axis)
 
 
-def _generated(place, words):
+def _generated(place: str, words: list[str]) -> np.ndarray:
     try:
         first, last, step = [int(word) for word in words + ["1"] * (3 - len(words))]
     except ValueError:

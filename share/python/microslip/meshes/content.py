@@ -1,5 +1,9 @@
 """A mesh as a file of another code has it: numbers of its own, names of its own, node orders already those of VTK."""
+
+from __future__ import annotations
+
 import dataclasses
+from typing import Callable, Mapping, Optional, Sequence
 
 import numpy as np
 
@@ -15,8 +19,8 @@ class ElementType:
     n_nodes: int
     n_corners: int
     gmsh: int           # number in gmsh's files
-    gmsh_order: tuple   # gmsh's list in places of this one; () if it is the same
-    faces: tuple = ()
+    gmsh_order: tuple[int, ...]  # gmsh's list in places of this one; () if it is the same
+    faces: tuple[tuple[int, ...], ...] = ()
 
 
 _TETRAHEDRON = ((0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0))
@@ -76,32 +80,32 @@ class Content:
     """What a reader gives: all by the numbers of the file."""
     node_numbers: np.ndarray
     coordinates: np.ndarray                           # n × 3, in the unit of the file
-    blocks: list
-    node_sets: dict = dataclasses.field(default_factory=dict)     # name → node numbers
-    element_sets: dict = dataclasses.field(default_factory=dict)  # name → element numbers
-    surfaces: dict = dataclasses.field(default_factory=dict)      # name → elements and their faces from 0, n × 2
-    length_unit: float = None                         # metres; None: the file does not say
-    turned_nodes: tuple = ()   # numbers of those that tell displacements in axes of their own
-    either_hand: bool = False  # whole blocks of elements may be numbered as seen in a mirror
-    modes_asked: int = None    # how many the deck asks for, whatever their frequencies; None: it does not say
-    left_out: list = dataclasses.field(default_factory=list)  # LeftOut, one of each kind
-    places_of: object = lambda kind, number: []  # "file:line" of each "node" or "element" of a number, of files with lines
+    blocks: list[Block]
+    node_sets: dict[str, np.ndarray] = dataclasses.field(default_factory=dict)     # name → node numbers
+    element_sets: dict[str, np.ndarray] = dataclasses.field(default_factory=dict)  # name → element numbers
+    surfaces: dict[str, np.ndarray] = dataclasses.field(default_factory=dict)      # name → elements and their faces from 0, n × 2
+    length_unit: Optional[float] = None               # metres; None: the file does not say
+    turned_nodes: tuple[int, ...] = ()  # numbers of those that tell displacements in axes of their own
+    either_hand: bool = False           # whole blocks of elements may be numbered as seen in a mirror
+    modes_asked: Optional[int] = None   # how many the deck asks for, whatever their frequencies; None: it does not say
+    left_out: list[LeftOut] = dataclasses.field(default_factory=list)  # one of each kind
+    places_of: Callable[[str, int], list[str]] = lambda kind, number: []  # "file:line" of each "node" or "element"
 
 
 _LARGEST_NUMBER = 2_000_000_000  # of a node or element: numbers of 32 bits, those of faces behind them
 
 
-def require(condition, message):
+def require(condition: object, message: str) -> None:
     if not condition:
         raise Refused(message)
 
 
-def counted(n, one, many):
+def counted(n: int, one: str, many: str) -> str:
     """1 and what follows it, or another count and what follows that."""
     return f"{n} {one if n == 1 else many}"
 
 
-def leave_out(left_out, place, what, remedy, count=1):
+def leave_out(left_out: list[LeftOut], place: str, what: str, remedy: str, count: int = 1) -> None:
     """One more of its kind."""
     for known in left_out:
         if known.what == what:
@@ -110,17 +114,17 @@ def leave_out(left_out, place, what, remedy, count=1):
     left_out.append(LeftOut(place, what, remedy, count))
 
 
-def volumes(content):
+def volumes(content: Content) -> list[Block]:
     return [block for block in content.blocks if TYPES[block.type].dimension == 3]
 
 
-def blocks_of(rows):
+def blocks_of(rows: Mapping[str, Sequence[Sequence[int]]]) -> list[Block]:
     """Blocks of {type: rows of an element's number and nodes}."""
     tables = {name: np.array(table, dtype=np.int64) for name, table in rows.items()}
     return [Block(name, table[:, 0], table[:, 1:]) for name, table in tables.items()]
 
 
-def check(content, source):
+def check(content: Content, source: str) -> None:
     """What no reader needs to check for itself. Raises Refused with the number of the node or element."""
     require(len(content.node_numbers) > 0, f"{source}: there are no nodes in it")
     require(volumes(content), f"{source}: there are no volume elements in it: tetrahedra, hexahedra, wedges or pyramids "
@@ -144,11 +148,11 @@ def check(content, source):
             require(not len(missing), f'{source}: {kind} set "{name}" holds {kind} {_first(missing)}, which is not there')
 
 
-def _first(numbers):
+def _first(numbers: np.ndarray) -> Optional[int]:
     return numbers[0] if len(numbers) else None
 
 
-def _refuse_twice(content, source, kind, numbers):
+def _refuse_twice(content: Content, source: str, kind: str, numbers: np.ndarray) -> None:
     unique, counts = np.unique(numbers, return_counts=True)
     for number in unique[counts > 1][:1]:
         places = content.places_of(kind, number)
@@ -156,7 +160,7 @@ def _refuse_twice(content, source, kind, numbers):
         raise Refused(f"{source}: {kind} {number} stands twice{where}")
 
 
-def turn_blocks(content):
+def turn_blocks(content: Content) -> None:
     """Renumbers blocks of elements that are numbered by the other hand throughout, as MED has all of its elements and
     VTK its wedges. Blocks of which some elements are turned are left for the checks of the program, which refuses them."""
     order = np.argsort(content.node_numbers)
@@ -168,7 +172,7 @@ def turn_blocks(content):
             block.nodes = block.nodes[:, _MIRRORED[block.type]]
 
 
-def _handedness(type_name, corners):
+def _handedness(type_name: str, corners: np.ndarray) -> np.ndarray:
     """Sign of the volume between the first face and the middle of all corners, per element."""
     face = TYPES[type_name].faces[0]
     ring = corners[:, face]
@@ -177,28 +181,28 @@ def _handedness(type_name, corners):
     return np.einsum("ij,ij->i", area, inward)
 
 
-def corners_of_faces(content):
+def corners_of_faces(content: Content) -> np.ndarray:
     """Sorted corners of all faces of volume elements, n × 4; the fourth of a triangle is -1."""
     return np.concatenate([four_sorted(block.nodes[:, face]) for block in volumes(content) for face in TYPES[block.type].faces])
 
 
-def four_sorted(nodes):
+def four_sorted(nodes: np.ndarray) -> np.ndarray:
     return np.sort(np.pad(nodes, ((0, 0), (0, 4 - nodes.shape[1])), constant_values=-1), axis=1)
 
 
-def ends_of_edges(content):
+def ends_of_edges(content: Content) -> np.ndarray:
     """Sorted corners of all edges of volume elements, n × 2."""
     return np.concatenate([np.sort(block.nodes[:, (face[i - 1], face[i])], axis=1) for block in volumes(content)
                            for face in TYPES[block.type].faces for i in range(len(face))])
 
 
-def rows_in(rows, others):
+def rows_in(rows: np.ndarray, others: np.ndarray) -> np.ndarray:
     """Which of the rows are among the others."""
     kind = [("", np.int64)] * rows.shape[1]
     return np.isin(*(np.ascontiguousarray(table, dtype=np.int64).view(kind).ravel() for table in (rows, others)))
 
 
-def faces_of(content, elements_and_faces):
+def faces_of(content: Content, elements_and_faces: np.ndarray) -> list[np.ndarray]:
     """Corner nodes of faces, by their number: [n × 3, m × 4] arrays."""
     triangles, quadrilaterals = [], []
     for block in content.blocks:
@@ -213,7 +217,7 @@ def faces_of(content, elements_and_faces):
     return [np.concatenate(part) if part else empty for part in (triangles, quadrilaterals)]
 
 
-def boundary_faces(content):
+def boundary_faces(content: Content) -> np.ndarray:
     """All faces that one volume element has: element numbers and faces, n × 2."""
     keys, places = [], []
     for block in volumes(content):

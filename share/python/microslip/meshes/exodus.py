@@ -2,11 +2,19 @@
 
 meshio 5.0 is not used here: it takes hex20 nodes in VTK's order, knows no TET10, and gives no side sets.
 """
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from .content import TYPES, Block, Content, Refused, require
 from .decks import text_of
 from .netcdf_length import require_whole
+
+if TYPE_CHECKING:
+    import netCDF4
 
 _FAMILIES = {"TET": {4: "tetra", 10: "tetra10"}, "HEX": {8: "hexahedron", 20: "hexahedron20"},
              "WED": {6: "wedge", 15: "wedge15"}, "PYR": {5: "pyramid", 13: "pyramid13"},
@@ -20,7 +28,7 @@ _ORDER = {"hexahedron20": (*range(12), 16, 17, 18, 19, 12, 13, 14, 15), "wedge15
 _SIDES = {"tetra": (1, 2, 3, 0), "hexahedron": (2, 3, 4, 5, 0, 1), "wedge": (2, 3, 4, 0, 1), "pyramid": (1, 2, 3, 4, 0)}
 
 
-def read(path):
+def read(path: str) -> Content:
     """A Content. Raises Refused with the block or set."""
     import netCDF4
     require_whole(path)
@@ -33,7 +41,7 @@ def read(path):
         return _content(path, file)
 
 
-def _content(path, file):
+def _content(path: str, file: netCDF4.Dataset) -> Content:
     require("num_nodes" in file.dimensions, f"{path}: no num_nodes in it: is it an Exodus file?")
     n_nodes = len(file.dimensions["num_nodes"])
     content = Content(np.arange(1, n_nodes + 1), _coordinates(path, file), [])
@@ -55,19 +63,19 @@ def _content(path, file):
     return content
 
 
-def _name(sets, path, kind, name, members):
+def _name(sets: dict[str, np.ndarray], path: str, kind: str, name: str, members: np.ndarray) -> None:
     require(name not in sets, f'{path}: two {kind}s are named "{name}"; rename one')
     sets[name] = members
 
 
-def _coordinates(path, file):
+def _coordinates(path: str, file: netCDF4.Dataset) -> np.ndarray:
     if "coord" in file.variables:
         return np.asarray(file.variables["coord"][:], dtype=float).T
     require("coordz" in file.variables, f"{path}: no coordz in it: the mesh is not three-dimensional")
     return np.column_stack([file.variables[f"coord{axis}"][:] for axis in "xyz"]).astype(float)
 
 
-def _names(file, variable, dimension, kind):
+def _names(file: netCDF4.Dataset, variable: str, dimension: str, kind: str) -> list[str]:
     """Of all blocks or sets; "block 3" for number 3 where there are none."""
     if dimension not in file.dimensions:
         return []
@@ -79,7 +87,7 @@ def _names(file, variable, dimension, kind):
     return [name or f"{kind} {number}" for name, number in zip(given, numbers)]
 
 
-def _block(path, name, connect, first):
+def _block(path: str, name: str, connect: netCDF4.Variable, first: int) -> Block:
     kind = getattr(connect, "elem_type", "").upper()
     nodes = np.asarray(connect[:], dtype=np.int64)
     own = _FAMILIES.get(kind[:3], {}).get(nodes.shape[1])
@@ -89,7 +97,7 @@ def _block(path, name, connect, first):
     return Block(own, np.arange(first, first + len(nodes)), nodes)
 
 
-def _faces(path, name, content, sides):
+def _faces(path: str, name: str, content: Content, sides: np.ndarray) -> np.ndarray:
     faces = np.full(len(sides), -1)
     for block in content.blocks:
         own = np.isin(sides[:, 0], block.numbers)

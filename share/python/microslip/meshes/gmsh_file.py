@@ -3,9 +3,14 @@
 What becomes a name: surfaces and sets of shell elements become surfaces; node sets, and sets of elements along lines or
 of volume elements (all their nodes), become sets of nodes. Sets of all nodes or all volume elements (Nall, Eall) name nothing.
 """
+
+from __future__ import annotations
+
+from typing import BinaryIO
+
 import numpy as np
 
-from .content import TYPES, Refused, check, faces_of, turn_blocks, volumes
+from .content import TYPES, Content, Refused, check, faces_of, turn_blocks, volumes
 
 _POINT = TYPES["vertex"].gmsh
 _FACES = {3: TYPES["triangle"].gmsh, 4: TYPES["quad"].gmsh}
@@ -14,20 +19,20 @@ _FACES = {3: TYPES["triangle"].gmsh, 4: TYPES["quad"].gmsh}
 class _Groups:
     """Physical groups and their elements, as records (type, nodes)."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.names = {}    # (dimension, name) → number
         self.records = []  # (gmsh type, group, nodes)
 
-    def add(self, dimension, gmsh_type, name, nodes):
+    def add(self, dimension: int, gmsh_type: int, name: str, nodes: np.ndarray) -> None:
         group = self.names.setdefault((dimension, name), len(self.names) + 1)
         if len(nodes):
             self.records.append((gmsh_type, group, nodes))
 
-    def has(self, dimension, name):
+    def has(self, dimension: int, name: str) -> bool:
         return (dimension, name) in self.names
 
 
-def write(content, source, path):
+def write(content: Content, source: str, path: str) -> None:
     """Writes `path`. Raises Refused where the content does not hold together; `source` is what messages call it."""
     check(content, source)
     if content.either_hand:
@@ -43,7 +48,7 @@ def write(content, source, path):
         _write_elements(content, groups, file)
 
 
-def _groups(content, source):
+def _groups(content: Content, source: str) -> _Groups:
     groups = _Groups()
     for name, faces in content.surfaces.items():
         _add_surface(groups, content, source, name, faces)
@@ -59,7 +64,7 @@ def _groups(content, source):
     return groups
 
 
-def _add_surface(groups, content, source, name, faces):
+def _add_surface(groups: _Groups, content: Content, source: str, name: str, faces: np.ndarray) -> None:
     triangles, quadrilaterals = faces_of(content, faces)
     if len(triangles) + len(quadrilaterals) < len(faces):
         raise Refused(f'{source}: surface "{name}": some of its faces are not of volume elements that have them')
@@ -67,7 +72,7 @@ def _add_surface(groups, content, source, name, faces):
     groups.add(2, _FACES[4], name, quadrilaterals)
 
 
-def _add_element_set(groups, content, name, elements, n_volumes):
+def _add_element_set(groups: _Groups, content: Content, name: str, elements: np.ndarray, n_volumes: int) -> None:
     """The nodes of volume elements and lines, the faces of shells. Names there are already stand as they are."""
     faces_are_named, nodes_are_named = groups.has(2, name), groups.has(0, name)
     for block in content.blocks:
@@ -80,7 +85,7 @@ def _add_element_set(groups, content, name, elements, n_volumes):
             groups.add(0, _POINT, name, np.unique(own)[:, None])
 
 
-def _write_nodes(content, file):
+def _write_nodes(content: Content, file: BinaryIO) -> None:
     record = np.dtype([("number", "<i4"), ("place", "<f8", 3)])
     nodes = np.empty(len(content.node_numbers), dtype=record)
     nodes["number"] = content.node_numbers
@@ -88,7 +93,7 @@ def _write_nodes(content, file):
     file.write(f"$Nodes\n{len(nodes)}\n".encode() + nodes.tobytes() + b"\n$EndNodes\n")
 
 
-def _write_elements(content, groups, file):
+def _write_elements(content: Content, groups: _Groups, file: BinaryIO) -> None:
     records = [(TYPES[block.type].gmsh, 0, block.numbers,
                 block.nodes[:, TYPES[block.type].gmsh_order] if TYPES[block.type].gmsh_order else block.nodes)
                for block in volumes(content)]

@@ -7,8 +7,12 @@ that is included it ends that file alone.
 Names: "PID 3" for the elements of property 3, "SPC 1" for the nodes that set 1 holds, "SET 2" for a set of nodes,
 "PLOAD4 4" for the faces that carry pressure set 4; or what HyperMesh and Femap call them in their comments.
 """
+
+from __future__ import annotations
+
 import os
 import re
+from typing import Iterable, Iterator, Optional, Sequence
 
 import numpy as np
 
@@ -31,7 +35,7 @@ _NAMES = re.compile(r'\$\s*(?:HM(?:NAME|SET)\s+(?:(PROP|COMP)\s+)?(\d+)\s*(?:\d+
                     r"Femap.*Property\s+(\d+)\s*:\s*(.+))", re.I)
 
 
-def read(path):
+def read(path: str) -> Content:
     """A Content. Raises Refused with file and line."""
     deck = _Deck(path)
     lines = list(_lines(path, os.path.dirname(os.path.abspath(path)), (), deck))
@@ -47,7 +51,7 @@ def read(path):
     return deck.content()
 
 
-def _lines(path, folder, above, deck):
+def _lines(path: str, folder: str, above: tuple[str, ...], deck: _Deck) -> Iterator[tuple[str, str]]:
     """Pairs (place, text) of a file and what it includes; comments go to the deck, which looks for names in them."""
     with open_deck(path, above, "INCLUDE") as file:
         for number, line in enumerate(file, 1):
@@ -64,7 +68,7 @@ def _lines(path, folder, above, deck):
                 yield f"{path}:{number}", text
 
 
-def _statements(lines):
+def _statements(lines: Iterable[tuple[str, str]]) -> Iterator[tuple[str, str]]:
     """Case control: a line that ends with a comma goes on."""
     begun = None
     for place, text in lines:
@@ -74,7 +78,7 @@ def _statements(lines):
             yield place, text
 
 
-def _fields(text):
+def _fields(text: str) -> tuple[str, list[str]]:
     """The first field, and the 8 (of long ones 4) that follow it on a line."""
     if "," in text:
         name, *words = [word.strip() for word in text.split(",")]
@@ -86,7 +90,7 @@ def _fields(text):
     return name.rstrip("*").upper(), words + [""] * (n - len(words))
 
 
-def _cards(lines):
+def _cards(lines: Iterable[tuple[str, str]]) -> Iterator[tuple[str, list[str]]]:
     """Pairs (place, words) of bulk data. Lines that begin with +, * or nothing belong to the one before."""
     card = None
     for place, text in lines:
@@ -101,13 +105,13 @@ def _cards(lines):
         yield card
 
 
-def _whole(place, words, index, what):
+def _whole(place: str, words: Sequence[str], index: int, what: str) -> int:
     word = words[index] if index < len(words) else ""
     require(word.isdigit(), f'{place}: {words[0]}: expected {what}, a whole number, found "{word}"')
     return int(word)
 
 
-def _real(place, word):
+def _real(place: str, word: str) -> float:
     """Nastran may leave the E out: 1.5-3."""
     exponential = re.sub(r"(?<=[\d.])(?=[+-])", "E", word.upper().replace("D", "E"))
     try:
@@ -116,7 +120,7 @@ def _real(place, word):
         raise Refused(f'{place}: expected a number, found "{word}"') from None
 
 
-def _listed(place, words):
+def _listed(place: str, words: Sequence[str]) -> np.ndarray:
     """Numbers of a list with THRU, BY and EXCEPT."""
     words = [word for word in words if word]
     numbers, without, i = [], False, 0
@@ -138,7 +142,7 @@ def _listed(place, words):
 
 
 class _Deck:
-    def __init__(self, path):
+    def __init__(self, path: str) -> None:
         self.path = path
         self.is_ended = False   # by ENDDATA
         self.nodes, self.coordinates, self.turned = [], [], []
@@ -156,7 +160,7 @@ class _Deck:
         self.methods = set()    # of METHOD in case control
         self.eigrl = {}         # its number → (V1, V2, ND) as written
 
-    def take_comment(self, line):
+    def take_comment(self, line: str) -> None:
         found = _NAMES.search(line)
         if found and found[3]:
             names = self.set_names if not found[1] else self.property_names if found[1].upper() == "PROP" else {}
@@ -164,7 +168,7 @@ class _Deck:
         elif found:
             self.property_names[int(found[4])] = found[5].strip()
 
-    def take_case(self, place, text):
+    def take_case(self, place: str, text: str) -> None:
         found = re.match(r"SET\s+(\d+)\s*=\s*(.*)", text, re.I)
         if found and found[2].strip().upper() != "ALL":
             self._hold("SET", place, int(found[1]), _listed(place, re.split(r"[,\s]+", found[2].strip())))
@@ -175,7 +179,7 @@ class _Deck:
         if chosen:
             self.selected.add(chosen[1].upper())
 
-    def take(self, place, words):
+    def take(self, place: str, words: Sequence[str]) -> None:
         name = words[0]
         if name == "GRID":
             self._take_node(place, words)
@@ -204,10 +208,10 @@ class _Deck:
                 leave_out(self.left_out, place, name, f"bodies are {', '.join(list(_SOLID)[:4])}, shells on them name faces; take "
                                                       "it out of the file")
 
-    def _hold(self, kind, place, number, nodes):
+    def _hold(self, kind: str, place: str, number: int, nodes: np.ndarray) -> None:
         self.node_lists.setdefault((kind, number), []).append((place, nodes))
 
-    def _take_node(self, place, words):
+    def _take_node(self, place: str, words: Sequence[str]) -> None:
         number = _whole(place, words, 1, "its number")
         require(words[2] in ("", "0"),
                 f"{place}: GRID {number} lies in coordinate system {words[2]}; write the mesh out in the basic system")
@@ -220,13 +224,13 @@ class _Deck:
             self.turned.append(number)
         self.coordinates.append([_real(place, word) for word in words[3:6]])
 
-    def _take_default(self, place, words):
+    def _take_default(self, place: str, words: Sequence[str]) -> None:
         """What GRID leaves empty."""
         require(words[2] in ("", "0"),
                 f"{place}: GRDSET puts nodes into coordinate system {words[2]}; write the mesh out in the basic system")
         self.all_turned = (words[6:7] or [""])[0] not in ("", "0")
 
-    def _take_element(self, place, words):
+    def _take_element(self, place: str, words: Sequence[str]) -> None:
         number = _whole(place, words, 1, "its number")
         nodes = [word for word in words[3:] if word]
         kind = _ELEMENTS[words[0]]
@@ -241,7 +245,7 @@ class _Deck:
         self.elements.setdefault(own, []).append([number, *(nodes[i] for i in _ORDER.get(own, range(len(nodes))))])
         self.properties.setdefault(int(words[2] or number), []).append(number)
 
-    def _take_pressure(self, place, words):
+    def _take_pressure(self, place: str, words: Sequence[str]) -> None:
         """The face of a solid is told by a corner on it and the opposite one, of a tetrahedron by the corner off it."""
         if words[7].upper() == "THRU" or not words[7]:
             return  # of shells, or of all faces of none in particular
@@ -249,7 +253,7 @@ class _Deck:
         corners = [_whole(place, words, i, "a corner") for i in (7, 8) if words[i]]
         self.pressed.setdefault(name, []).append((place, _whole(place, words, 2, "an element"), corners))
 
-    def content(self):
+    def content(self) -> Content:
         require(self.nodes, f"{self.path}: no GRID in it: is it bulk data of Nastran?")
         for place, name, chosen in self.constraints:
             if chosen in self.selected or (name != "DMIG" and not self.has_case_control):
@@ -266,7 +270,7 @@ class _Deck:
             content.surfaces[f"PLOAD4 {number}"] = _pressed_faces(content, faces)
         return content
 
-    def _modes_asked(self):
+    def _modes_asked(self) -> Optional[int]:
         """ND of the one EIGRL that is used, where no highest frequency V2 may make them fewer."""
         used = [asked for number, asked in self.eigrl.items() if not self.methods or number in map(str, self.methods)]
         if len(used) != 1:
@@ -274,7 +278,7 @@ class _Deck:
         _, highest, count = used[0]
         return int(count) if count.isdigit() and not highest else None
 
-    def _name_nodes(self, content):
+    def _name_nodes(self, content: Content) -> None:
         for (kind, number), parts in self.node_lists.items():
             nodes = np.unique(np.concatenate([numbers for _, numbers in parts]))
             known = np.isin(nodes, content.node_numbers)
@@ -287,7 +291,7 @@ class _Deck:
                 content.node_sets[self.set_names.get(number, f"SET {number}")] = nodes
 
 
-def _pressed_faces(content, faces):
+def _pressed_faces(content: Content, faces: Sequence[tuple[str, int, list[int]]]) -> np.ndarray:
     rows = {}
     for block in content.blocks:
         rows.update((int(number), (block, row)) for row, number in enumerate(block.numbers))

@@ -1,6 +1,10 @@
 """How long a classic NetCDF file has to be. The library reads zeros behind the end of one that was cut off."""
+
+from __future__ import annotations
+
 import math
 import os
+from typing import BinaryIO
 
 from .content import Refused
 
@@ -9,7 +13,7 @@ _SIZES = {1: 1, 2: 1, 3: 2, 4: 4, 5: 4, 6: 8, 7: 1, 8: 2, 9: 4, 10: 8, 11: 8}  #
 _PADDING = 4
 
 
-def require_whole(path):
+def require_whole(path: str) -> None:
     """Raises Refused where data are missing; says nothing of files of another kind (NetCDF 4 is HDF5, which knows its end)."""
     with open(path, "rb") as file:
         magic = file.read(4)
@@ -27,12 +31,12 @@ def require_whole(path):
 class _Header:
     """After "NetCDF Classic Format Specification". Version 1 has offsets of 4 bytes, 5 has counts of 8."""
 
-    def __init__(self, file, version):
+    def __init__(self, file: BinaryIO, version: int) -> None:
         self.file = file
         self.wide = 8 if version == 5 else 4
         self.offset = 4 if version == 1 else 8
 
-    def end_of_data(self):
+    def end_of_data(self) -> int:
         """Without the padding of what comes last."""
         n_records = self._number(self.wide)
         lengths = [self._dimension() for _ in range(self._count(_DIMENSION))]
@@ -51,36 +55,36 @@ class _Header:
             ends += [begin + (n_records - 1) * one + n_bytes for begin, n_bytes in records]
         return max(ends)
 
-    def _number(self, width):
+    def _number(self, width: int) -> int:
         data = self.file.read(width)
         if len(data) < width:
             raise EOFError
         return int.from_bytes(data, "big")
 
-    def _skip(self, n_bytes):
+    def _skip(self, n_bytes: int) -> None:
         if len(self.file.read(-(-n_bytes // _PADDING) * _PADDING)) < n_bytes:
             raise EOFError
 
-    def _count(self, kind):
+    def _count(self, kind: int) -> int:
         tag, count = self._number(4), self._number(self.wide)
         if count and tag != kind:
             raise KeyError(tag)
         return count
 
-    def _name(self):
+    def _name(self) -> None:
         self._skip(self._number(self.wide))
 
-    def _dimension(self):
+    def _dimension(self) -> int:
         self._name()
         return self._number(self.wide)
 
-    def _attributes(self):
+    def _attributes(self) -> None:
         for _ in range(self._count(_ATTRIBUTE)):
             self._name()
             size = _SIZES[self._number(4)]
             self._skip(size * self._number(self.wide))
 
-    def _variable(self):
+    def _variable(self) -> tuple[list[int], int, int]:
         """Its dimensions, bytes of a value, where its data begin."""
         self._name()
         places = [self._number(self.wide) for _ in range(self._number(self.wide))]

@@ -2,6 +2,11 @@
 
 meshio 5.0 has no reader; gmsh's takes groups of elements only, and no units.
 """
+
+from __future__ import annotations
+
+from typing import Any, Callable, Iterator, Sequence
+
 import numpy as np
 
 from .content import TYPES, Content, Refused, blocks_of, require
@@ -23,7 +28,7 @@ _GROUPS = {2430: 2, 2432: 2, 2435: 4, 2452: 4, 2467: 4, 2477: 4}  # data set →
 _NODE, _ELEMENT = 7, 8
 
 
-def read(path):
+def read(path: str) -> Content:
     """A Content. Raises Refused with file and line."""
     with open_text(path) as file:
         lines = file.read().splitlines()
@@ -36,7 +41,7 @@ def read(path):
     return reader.content()
 
 
-def _data_sets(path, lines):
+def _data_sets(path: str, lines: Sequence[str]) -> Iterator[tuple[int, int, int]]:
     """Number, first and last line of each, between lines of -1."""
     marks = [i for i, line in enumerate(lines) if line.strip() == "-1"]
     require(marks, f"{path}: no line of -1 in it: is it a universal file?")
@@ -48,7 +53,7 @@ def _data_sets(path, lines):
 
 
 class _Reader:
-    def __init__(self, path, lines):
+    def __init__(self, path: str, lines: Sequence[str]) -> None:
         self.path, self.lines = path, lines
         self.node_numbers, self.coordinates = [], []
         self.lines_of = {"node": [], "element": []}  # number and line of each
@@ -56,14 +61,14 @@ class _Reader:
         self.node_sets, self.element_sets = {}, {}
         self.length_unit = None
 
-    def _numbers(self, line, convert=int):
+    def _numbers(self, line: int, convert: Callable[[str], Any] = int) -> list[Any]:
         try:
             return [convert(word) for word in self.lines[line].replace("D", "E").replace("d", "e").split()]
         except ValueError:
             kind = "whole numbers" if convert is int else "numbers"
             raise Refused(f'{self.path}:{line + 1}: expected {kind}, found "{self.lines[line].strip()[:40]}"') from None
 
-    def nodes(self, number, begin, end):
+    def nodes(self, number: int, begin: int, end: int) -> None:
         step = 1 if number == 15 else 2
         require((end - begin) % step == 0, f"{self.path}:{end}: the last node has no coordinates")
         for line in range(begin, end, step):
@@ -76,7 +81,7 @@ class _Reader:
             self.lines_of["node"].append((int(words[0]), line + 1))
             self.coordinates.append(place)
 
-    def elements(self, number, begin, end):
+    def elements(self, number: int, begin: int, end: int) -> None:
         line = begin
         while line < end:
             head = self._numbers(line)
@@ -96,7 +101,7 @@ class _Reader:
             self.lines_of["element"].append((head[0], line + 1))
             line = last
 
-    def groups(self, number, begin, end):
+    def groups(self, number: int, begin: int, end: int) -> None:
         width = _GROUPS[number]
         line = begin
         while line + 1 < end:
@@ -116,12 +121,12 @@ class _Reader:
                     sets[name] = own
             line = last
 
-    def units(self, _number, begin, end):
+    def units(self, _number: int, begin: int, end: int) -> None:
         factors = self._numbers(begin + 1, float) if end > begin + 1 else []
         require(factors and factors[0] > 0, f"{self.path}:{begin + 2}: expected the factors of the units")
         self.length_unit = 1.0 / factors[0]  # to divide by for metres
 
-    def content(self):
+    def content(self) -> Content:
         require(self.node_numbers, f"{self.path}: no nodes (data set 2411) in it")
         require(self.rows, f"{self.path}: no elements (data set 2412) in it")
         elements = [row[0] for rows in self.rows.values() for row in rows]
@@ -130,5 +135,5 @@ class _Reader:
         return Content(np.array(self.node_numbers), np.array(self.coordinates), blocks_of(self.rows), self.node_sets, self.element_sets,
                        length_unit=self.length_unit, places_of=self._places_of)
 
-    def _places_of(self, kind, wanted):
+    def _places_of(self, kind: str, wanted: int) -> list[str]:
         return [f"{self.path}:{line}" for number, line in self.lines_of[kind] if number == wanted]

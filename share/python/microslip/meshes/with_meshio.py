@@ -1,17 +1,25 @@
 """What meshio reads as it should: MED of Salome and Code_Aster (.med), VTK (.vtu, .vtk). Names are ours to find."""
+
+from __future__ import annotations
+
 import contextlib
 import io
 import re
+from typing import TYPE_CHECKING, Iterator, Mapping, Optional, Sequence
 
 import numpy as np
 
 from .content import TYPES, Block, Content, Refused, counted, require
 from .decks import text_of
 
+if TYPE_CHECKING:
+    import h5py
+    import meshio
+
 _MOST_VALUES = 200  # of an array of whole numbers that tells sets; with more it numbers things
 
 
-def read_med(path):
+def read_med(path: str) -> Content:
     """A Content. Families become groups: a family of nodes or elements is in each group it names."""
     import h5py
     import meshio
@@ -30,7 +38,7 @@ def read_med(path):
     return content
 
 
-def _require_known_types(path):
+def _require_known_types(path: str) -> None:
     """meshio ends on others with their name alone."""
     import h5py
     from meshio.med._med import med_to_meshio_type
@@ -43,7 +51,8 @@ def _require_known_types(path):
     require(not unknown, f"{path}: elements of type {', '.join(unknown)} are not read; bodies may be TE4, T10, HE8, H20, PE6, P15, PY5, P13")
 
 
-def _families(path, kind, groups_of, tags, numbers):
+def _families(path: str, kind: str, groups_of: Mapping[int, Sequence[str]], tags: Optional[np.ndarray],
+              numbers: np.ndarray) -> Iterator[tuple[str, np.ndarray]]:
     """Pairs (group, its numbers)."""
     unknown = np.setdiff1d(tags if tags is not None else [], [0, *groups_of])
     require(not len(unknown), f"{path}: {kind} are in family {next(iter(unknown), None)}, which is not there, so that groups may lack "
@@ -53,13 +62,13 @@ def _families(path, kind, groups_of, tags, numbers):
         yield name, numbers[np.isin(tags, [family for family, groups in groups_of.items() if name in groups])]
 
 
-def _groups_of_families(families):
+def _groups_of_families(families: h5py.Group) -> dict[int, list[str]]:
     """In place of meshio's, which ends on a family that is in no group."""
     return {family.attrs["NUM"]: [text_of(np.asarray(name, dtype="i1").tobytes()).strip().rstrip("\x00") for name in family["GRO"]["NOM"][()]] if "GRO" in family
             else [] for family in families.values()}
 
 
-def _med_unit(path):
+def _med_unit(path: str) -> Optional[float]:
     """Metres, where the file names a unit of its coordinates that we know."""
     import h5py
     with h5py.File(path, "r") as file:
@@ -69,7 +78,7 @@ def _med_unit(path):
     return {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "in": 0.0254}.get(words[0].lower()) if words else None
 
 
-def read_vtk(path):
+def read_vtk(path: str) -> Content:
     """A Content. An array of whole numbers names a set for each of its values: "material 3", and just "held" for an
     array of 0 and 1."""
     _refuse_pieces(path)
@@ -83,7 +92,7 @@ def read_vtk(path):
     return content
 
 
-def _refuse_pieces(path):
+def _refuse_pieces(path: str) -> None:
     """Of several meshio keeps the elements of the last."""
     with open(path, "rb") as file:
         n_pieces = len(re.findall(rb"<Piece\b", file.read().split(b"<AppendedData", 1)[0]))
@@ -91,7 +100,7 @@ def _refuse_pieces(path):
                           "to Grid), and write it once more")
 
 
-def _refuse_arrays_of_one_name(path):
+def _refuse_arrays_of_one_name(path: str) -> None:
     """Of two the later one would take the place of the other."""
     with open(path, "rb") as file:
         text = file.read()
@@ -107,7 +116,7 @@ def _refuse_arrays_of_one_name(path):
             require(names.count(name) == 1, f'{path}: two arrays are named "{text_of(name)}"; rename one')
 
 
-def _valued_sets(name, values, numbers):
+def _valued_sets(name: str, values: np.ndarray, numbers: np.ndarray) -> dict[str, np.ndarray]:
     values = np.asarray(values)
     if values.shape[1:] == (1,):
         values = values[:, 0]
@@ -121,7 +130,7 @@ def _valued_sets(name, values, numbers):
     return {f"{name} {value}": numbers[values == value] for value in found if value != 0}
 
 
-def _read(path, file_format):
+def _read(path: str, file_format: str) -> tuple[Content, meshio.Mesh]:
     import meshio
     said = io.StringIO()
     # Without these meshio 5.0 ends on elements that it knows how to read.
@@ -153,7 +162,7 @@ def _read(path, file_format):
     return content, mesh
 
 
-def _told(error, said):
+def _told(error: BaseException, said: io.StringIO) -> str:
     own_words = not isinstance(error, (SystemExit, AttributeError, TypeError))  # else those of a programmer
     text = " ".join(f"{said.getvalue()} {error if own_words else ''}".split())
     return text.rstrip(".") or f"it ended where more was expected ({type(error).__name__})"

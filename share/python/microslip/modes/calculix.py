@@ -4,6 +4,11 @@ Lines begin with a key: ` -1` node and numbers, ` -3` end of a block; `    2C` c
 with the frequency [cycles per unit of time] and, of modes, the word MODAL; ` -4  DISP` displacements; ` 9999` end of
 the file. Numbers take 12 columns from the 14th on. After: CalculiX GraphiX manual, section "Result Format".
 """
+
+from __future__ import annotations
+
+from typing import Iterator, TextIO
+
 import numpy as np
 
 from microslip.meshes.content import Refused, counted, require
@@ -14,7 +19,7 @@ from .content import Modes
 _KEY, _WIDTH = 13, 12
 
 
-def read(path):
+def read(path: str) -> Modes:
     with open_text(path) as file:
         lines = _Lines(path, file)
         numbers, coordinates, frequencies, shapes, is_ended = None, None, [], [], False
@@ -45,25 +50,25 @@ def read(path):
 
 
 class _Lines:
-    def __init__(self, path, file):
+    def __init__(self, path: str, file: TextIO) -> None:
         self.path, self.file, self.number_of_line = path, file, 0
 
     @property
-    def place(self):
+    def place(self) -> str:
         return f"{self.path}:{self.number_of_line}"
 
-    def __iter__(self):
+    def __iter__(self) -> Iterator[str]:
         for line in self.file:
             self.number_of_line += 1
             yield line
 
-    def number(self, text):
+    def number(self, text: str) -> float:
         try:
             return float(text)
         except ValueError:
             raise Refused(f'{self.place}: expected a number, found "{text.strip()[:20]}"') from None
 
-    def block(self):
+    def block(self) -> tuple[np.ndarray, np.ndarray]:
         """Node numbers and three numbers each, up to the end of the block."""
         nodes, values = [], []
         for line in self:

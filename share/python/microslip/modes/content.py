@@ -1,4 +1,7 @@
 """Modes as a file of another code has them, in its units."""
+
+from __future__ import annotations
+
 import dataclasses
 
 import numpy as np
@@ -16,7 +19,7 @@ class Modes:
     n_attachment: int = 0
 
 
-def check(modes, source):
+def check(modes: Modes, source: str) -> None:
     """What no reader needs to check for itself. Rigid-body modes, whose frequencies come out small, get 0."""
     _settle_rigid_modes(modes.frequency_hz[:len(modes.frequency_hz) - modes.n_attachment])
     require(len(modes.frequency_hz) > modes.n_attachment, f"{source}: there are no modes in it")
@@ -34,7 +37,7 @@ def check(modes, source):
     require((modes.frequency_hz[len(free):] > 0.0).all(), f"{source}: an attachment shape has no frequency above 0")
 
 
-def _settle_rigid_modes(frequencies):
+def _settle_rigid_modes(frequencies: np.ndarray) -> None:
     """As the program counts its own."""
     for mode in range(len(frequencies) - 1, 0, -1):
         if abs(frequencies[mode - 1]) < _RIGID * frequencies[mode]:

@@ -5,17 +5,25 @@ A MED file is HDF5: /ENS_MAA/mesh/step/NOE/COO, coordinates; /CHA/field with NOM
 each, and in it a group for each step with PDT, and NOE/profile/CO, values, component after component; profile
 MED_NO_PROFILE_INTERNAL: at all nodes. After: the MED file of SALOME 9, "Le modèle de données MED".
 """
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from microslip.meshes.content import Refused, require
 
 from .content import Modes
 
+if TYPE_CHECKING:
+    import h5py
+
 _COMPONENTS = ["DX", "DY", "DZ"]
 _ALL_NODES = "MED_NO_PROFILE_INTERNAL"
 
 
-def read(path):
+def read(path: str) -> Modes:
     import h5py
     require(h5py.is_hdf5(path), f"{path}: no MED file: it is not HDF5")
     try:
@@ -25,7 +33,7 @@ def read(path):
         raise Refused(f"{path}: no MED file of modes: {' '.join(str(error).split())}") from None
 
 
-def _modes(path, file):
+def _modes(path: str, file: h5py.File) -> Modes:
     coordinates = _coordinates(path, file)
     name, field = _displacements(path, file)
     steps = sorted(field.values(), key=lambda step: (int(step.attrs["NDT"]), int(step.attrs["NOR"])))
@@ -33,7 +41,7 @@ def _modes(path, file):
     return Modes(coordinates, np.array([float(step.attrs["PDT"]) for step in steps]), np.array(shapes))
 
 
-def _coordinates(path, file):
+def _coordinates(path: str, file: h5py.File) -> np.ndarray:
     meshes = file["ENS_MAA"]
     require(len(meshes) == 1, f"{path}: expected one mesh, there are {len(meshes)}: {', '.join(meshes)}")
     mesh = next(iter(meshes.values()))
@@ -43,7 +51,7 @@ def _coordinates(path, file):
     return mesh["NOE"]["COO"][()].reshape(3, -1).T.astype(float)
 
 
-def _displacements(path, file):
+def _displacements(path: str, file: h5py.File) -> tuple[str, h5py.Group]:
     """The one field at nodes with components DX, DY, DZ first."""
     fields = {name: field for name, field in file.get("CHA", {}).items() if _names(field)[:3] == _COMPONENTS}
     require(fields, f"{path}: there are no modes in it: no field has the components DX, DY, DZ; fields are: "
@@ -53,13 +61,13 @@ def _displacements(path, file):
     return next(iter(fields.items()))
 
 
-def _names(field):
+def _names(field: h5py.Group) -> list[str]:
     text = field.attrs["NOM"]
     text = text.decode("latin-1") if isinstance(text, bytes) else str(text)
     return [text[i:i + 16].strip(" \0") for i in range(0, len(text), 16)]
 
 
-def _shape(path, name, number, step, n_nodes):
+def _shape(path: str, name: str, number: int, step: h5py.Group, n_nodes: int) -> np.ndarray:
     where = f"{path}: mode {number} of {name}"
     require("NOE" in step, f"{where} has no displacements at nodes")
     profiles = list(step["NOE"])

@@ -5,12 +5,16 @@ Lines that begin with $ say what follows: `$EIGENVECTOR`, `$REAL OUTPUT`, `$SUBC
 columns each from the 19th on; `-CONT-` and three rotations. Columns 73 to 80 number the lines. Seven digits. Where the
 nodes are stands in the deck alone. After: MSC Nastran, Quick Reference Guide, case control command DISPLACEMENT.
 """
+
+from __future__ import annotations
+
 import re
+from typing import Iterator, Optional, Sequence
 
 import numpy as np
 
 from microslip.meshes import nastran
-from microslip.meshes.content import Refused, require
+from microslip.meshes.content import Content, Refused, require
 from microslip.meshes.decks import open_text
 
 from .content import Modes
@@ -19,7 +23,7 @@ _FIRST, _WIDTH = 18, 18
 _EIGENVALUE = re.compile(r"\$EIGENVALUE =\s*(\S+)\s+MODE =\s*(\d+)")
 
 
-def read(path, deck):
+def read(path: str, deck: str) -> Modes:
     modes = list(_modes(path))
     require(modes, f"{path}: there are no modes in it; expected $EIGENVECTOR with $REAL OUTPUT, as VECTOR(PUNCH)=ALL gives")
     for number, mode in enumerate(modes, 1):
@@ -33,7 +37,7 @@ def read(path, deck):
     return Modes(_places(path, deck, content, modes[0].nodes), frequencies, np.array([mode.shape for mode in modes]))
 
 
-def _require_same_nodes(path, number, nodes, first):
+def _require_same_nodes(path: str, number: int, nodes: Sequence[int], first: Sequence[int]) -> None:
     require(len(nodes) == len(first), f"{path}: mode {number} has displacements at {len(nodes)} nodes, mode 1 at {len(first)}: the file was "
                                       "cut off, or modes were asked for at different nodes")
     other = next((pair for pair in zip(nodes, first) if pair[0] != pair[1]), None)
@@ -41,7 +45,7 @@ def _require_same_nodes(path, number, nodes, first):
                        f"{other and other[1]}: is the file damaged?")
 
 
-def _require_all(path, deck, n_modes, asked):
+def _require_all(path: str, deck: str, n_modes: int, asked: Optional[int]) -> None:
     """A punch file does not say how many modes follow, and has no last line: where it was cut off between two, the deck
     alone tells."""
     require(asked is None or n_modes >= asked,
@@ -50,12 +54,12 @@ def _require_all(path, deck, n_modes, asked):
 
 
 class _Mode:
-    def __init__(self, place, eigenvalue, number):
+    def __init__(self, place: str, eigenvalue: float, number: int) -> None:
         self.place, self.eigenvalue, self.number = place, eigenvalue, number
         self.nodes, self.shape = [], []
 
 
-def _modes(path):
+def _modes(path: str) -> Iterator[_Mode]:
     mode, is_vector = None, False
     with open_text(path) as file:
         for line_number, line in enumerate(file, 1):
@@ -80,7 +84,7 @@ def _modes(path):
         yield mode
 
 
-def _take_node(place, text, mode):
+def _take_node(place: str, text: str, mode: _Mode) -> None:
     if text[10:_FIRST].strip() == "S":
         return
     words = [text[:10], *(text[_FIRST + _WIDTH * i:_FIRST + _WIDTH * (i + 1)] for i in range(3))]
@@ -89,14 +93,14 @@ def _take_node(place, text, mode):
     require(len(text) == _FIRST + 3 * _WIDTH, f"{place}: the line ends within the third displacement: was the file cut off?")
 
 
-def _number(place, word):
+def _number(place: str, word: str) -> float:
     try:
         return float(word)
     except ValueError:
         raise Refused(f'{place}: expected a number, found "{word.strip()[:20]}": was the file cut off?') from None
 
 
-def _places(path, deck, content, nodes):
+def _places(path: str, deck: str, content: Content, nodes: Sequence[int]) -> np.ndarray:
     """Coordinates of nodes by their number."""
     missing = np.setdiff1d(nodes, content.node_numbers)
     require(not len(missing), f"{path}: node {next(iter(missing), None)} is not in {deck}: {len(missing)} of {len(nodes)} are missing; is it "

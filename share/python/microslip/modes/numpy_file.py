@@ -1,7 +1,11 @@
 """Modes in a .npz file of NumPy: arrays `nodes` (n × 3), `frequency_Hz` (m), `shapes` (m × n × 3); for static shapes that
 stand for omitted modes, `attachment_frequency_Hz` (k) and `attachment_shapes` (k × n × 3), M-orthonormal with the modes."""
+
+from __future__ import annotations
+
 import zipfile
 import zlib
+from typing import Mapping, Optional
 
 import numpy as np
 
@@ -10,7 +14,7 @@ from microslip.meshes.content import Refused, require
 from .content import Modes
 
 
-def read(path):
+def read(path: str) -> Modes:
     try:
         arrays = np.load(path, allow_pickle=False)
         require(isinstance(arrays, np.lib.npyio.NpzFile), f"{path}: one array without a name, as numpy.save writes; write all of them "
@@ -29,12 +33,12 @@ def read(path):
     return Modes(nodes, frequency, shapes, n_attachment)
 
 
-def _shapes(path, given, kind, n_nodes):
+def _shapes(path: str, given: Mapping[str, np.ndarray], kind: str, n_nodes: int) -> tuple[np.ndarray, np.ndarray]:
     frequency = _array(path, given, kind + "frequency_Hz", (None,))
     return frequency, _array(path, given, kind + "shapes", (len(frequency), n_nodes, 3))
 
 
-def _array(path, given, name, size):
+def _array(path: str, given: Mapping[str, np.ndarray], name: str, size: tuple[Optional[int], ...]) -> np.ndarray:
     require(name in given, f'{path}: array "{name}" is missing; there are: {", ".join(given) or "none"}')
     array = given[name]
     wanted = " x ".join("n" if n is None else str(n) for n in size)

@@ -1,6 +1,10 @@
 """Modes as a table (.csv): one row for each node of each mode, columns mode, frequency_Hz, x, y, z, ux, uy, uz and any
 others, in any order; what a script writes that walks through the frames of an Abaqus .odb."""
+
+from __future__ import annotations
+
 import csv
+from typing import Sequence
 
 import numpy as np
 
@@ -11,7 +15,7 @@ from .content import Modes
 _COLUMNS = ("mode", "frequency_Hz", "x", "y", "z", "ux", "uy", "uz")
 
 
-def read(path):
+def read(path: str) -> Modes:
     with open(path, encoding="utf-8-sig", errors="replace", newline="") as file:
         rows = csv.reader(file)
         header = [name.strip() for name in next(rows, [])]
@@ -32,7 +36,7 @@ def read(path):
     return Modes(blocks[0][:, 2:5], table[starts, 1], np.array([block[:, 5:8] for block in blocks]))
 
 
-def _numbers(path, line, row, header, places):
+def _numbers(path: str, line: int, row: Sequence[str], header: Sequence[str], places: Sequence[int]) -> list[float]:
     require(len(row) == len(header), f"{path}:{line}: {counted(len(row), 'cell', 'cells')}, the header has {len(header)}")
     try:
         return [float(row[place]) for place in places]

@@ -1,6 +1,9 @@
 """Natural frequencies over the speed of rotation, lines of the engine orders, and where they meet."""
 
+from __future__ import annotations
+
 import os
+from typing import TYPE_CHECKING, Any, Mapping
 
 import numpy as np
 
@@ -8,8 +11,11 @@ from microslip.files import read_table
 from microslip.plots.output import save
 from microslip.plots.style import ACCENT, light_grid, subplots
 
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
-def draw_modes(axes, table):
+
+def draw_modes(axes: Axes, table: Mapping[str, Any]) -> None:
     for mode in np.unique(table["mode"]):
         rows = table["mode"] == mode
         axes.plot(table["speed_rpm"][rows], table["frequency_Hz"][rows], color="#12355b")
@@ -17,7 +23,7 @@ def draw_modes(axes, table):
                       textcoords="offset points", fontsize=7, color="#12355b")
 
 
-def draw_engine_orders(axes, highest, speeds, top):
+def draw_engine_orders(axes: Axes, highest: int, speeds: np.ndarray, top: float) -> None:
     """Straight lines through the origin, each with its number where it leaves the diagram."""
     for order in range(1, highest + 1):
         end = min(speeds[-1], 60.0 * top / order)
@@ -28,13 +34,13 @@ def draw_engine_orders(axes, highest, speeds, top):
                       color="0.5", annotation_clip=False)
 
 
-def frequency_of_interest(table, highest, speeds):
+def frequency_of_interest(table: Mapping[str, Any], highest: int, speeds: np.ndarray) -> float:
     """Upper end of the diagram: a little above the last engine order and the first mode; what lies higher meets nothing."""
     first = table["frequency_Hz"][table["mode"] == table["mode"].min()].max()
     return min(1.05 * table["frequency_Hz"].max(), 1.2 * max(first, highest * speeds[-1] / 60.0))
 
 
-def plot_campbell(folder, highest):
+def plot_campbell(folder: str, highest: str) -> bool:
     """FOLDER/campbell.svg and .png."""
     table = read_table(os.path.join(folder, "frequencies.csv"), ("speed_rpm", "mode", "frequency_Hz"))
     met = read_table(os.path.join(folder, "crossings.csv"), ("speed_rpm", "frequency_Hz"))

@@ -1,6 +1,9 @@
 """What the command scripts share."""
 
+from __future__ import annotations
+
 import sys
+from typing import Callable, Optional
 
 from matplotlib import rc_context
 
@@ -8,7 +11,7 @@ from microslip.files import RunError
 from microslip.plots.style import STYLE
 
 
-def run_command(draw, *arguments):
+def run_command(draw: Callable[..., object], *arguments: object) -> int:
     """Calls draw(*arguments) in the style of the plots. The exit code: 1 where it returns False, or where a run
     cannot be drawn (stderr says why)."""
     try:
@@ -19,7 +22,7 @@ def run_command(draw, *arguments):
         return 1
 
 
-def given(usage, n_least, n_most=None):
+def given(usage: str, n_least: int, n_most: Optional[int] = None) -> list[str]:
     """The arguments of a command without options; prints its usage and ends where they do not fit or -h is asked."""
     words = sys.argv[1:]
     asked = words[:1] in (["-h"], ["--help"])

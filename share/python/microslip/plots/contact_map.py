@@ -1,5 +1,7 @@
 """The contact map of a patch as a run wrote it."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from microslip.boundaries import GUARDS, Vertices, triangles_of
@@ -12,7 +14,7 @@ class ContactMap:
     their corners (vertices). Where points slip in two directions, slider: its positions along the two axes drawn (n × m each) [m].
     """
 
-    def __init__(self, path):
+    def __init__(self, path: str) -> None:
         with data_file(path) as file:
             self.frequency = file["frequency_Hz"][0]
             self.amplitude, self.stable = file["amplitude_m"][0], int(file["stable"][0])
@@ -33,7 +35,7 @@ class ContactMap:
                                          np.split(file["vertex_state_starts_deg"][:], 5, axis=1), guards)
         self.lay_flat(vertices if self.cells is not None else self.points)
 
-    def lay_flat(self, corners):
+    def lay_flat(self, corners: np.ndarray) -> None:
         """A long patch lies on its side."""
         self.names = "p [mm]", "r [mm]"
         if np.ptp(corners[:, 1]) > np.ptp(corners[:, 0]):
@@ -45,7 +47,7 @@ class ContactMap:
             self.vertices.corners = corners
         self.low, self.high = corners.min(axis=0), corners.max(axis=0)
 
-    def require_shapes(self, path, vertices, cells):
+    def require_shapes(self, path: str, vertices: np.ndarray, cells: np.ndarray) -> None:
         n = len(self.weights)
         require_shape(path, "points", self.points, (n, 2))
         require_shape(path, "state", self.state, (n, len(self.phase)))
@@ -54,11 +56,11 @@ class ContactMap:
         if len(cells) and not (len(cells) == n and cells.min() >= 0 and cells.max() < len(vertices)):
             raise RunError(f"{shown(path)}: \"cells\" do not fit \"vertices\": {AGAIN}")
 
-    def phase_near(self, angle):
+    def phase_near(self, angle: float) -> int:
         """Number of the phase nearest to an angle [deg]."""
         return int(np.argmin(np.abs((self.phase - angle + 180) % 360 - 180)))
 
-    def shares(self, phase):
+    def shares(self, phase: int) -> tuple[float, float, float]:
         """Part of the area in stick, slip, separation."""
         weights = self.weights / self.weights.sum()
         state = self.state[:, phase]

@@ -1,16 +1,25 @@
 """A study on several element sizes: how far frequencies and peaks are from those of the finest, and what it costs."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Mapping, Optional, Sequence
+
+import numpy as np
 from matplotlib import colormaps
 
 from microslip.plots.output import save_as
-from microslip.plots.style import figure_title, log_scale, subplots
+from microslip.plots.style import Colour, figure_title, log_scale, subplots
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 MODES = [(f"frequency_{n}_Hz", f"f{'₁₂₃'[n - 1]}", colour)
          for n, colour in ((1, "#12355b"), (2, "#f4a259"), (3, "#b23a6f"))]
 BEST = [("optimum_preload_N", "best preload", "#c1121f")]
 
 
-def deviation(rows, key):
+def deviation(rows: Sequence[Mapping[str, Any]], key: str) -> Optional[list[float]]:
     """|value − finest| / finest [%] of all sizes but the finest; None where a value is missing."""
     finest = rows[-1].get(key)
     if not finest:
@@ -20,7 +29,7 @@ def deviation(rows, key):
     return None if None in result else result
 
 
-def draw_deviations(axes, rows, lines):
+def draw_deviations(axes: Axes, rows: Sequence[Mapping[str, Any]], lines: Sequence[tuple[str, str, Colour]]) -> None:
     unknowns = [row["degrees_of_freedom"] for row in rows[:-1]]
     for key, label, colour in lines:
         values = deviation(rows, key)
@@ -29,14 +38,14 @@ def draw_deviations(axes, rows, lines):
     axes.set_ylabel(f"difference to {rows[-1]['element_size']} [%]")
 
 
-def draw_cost(axes, rows):
+def draw_cost(axes: Axes, rows: Sequence[Mapping[str, Any]]) -> None:
     unknowns = [row["degrees_of_freedom"] for row in rows]
     for key, label, marker, colour in (("seconds", "time [s]", "o", "0.2"),
                                        ("peak_memory_MB", "memory [MB]", "s", "0.6")):
         axes.plot(unknowns, [row[key] for row in rows], marker=marker, markersize=4, color=colour, label=label)
 
 
-def finish(figure, grid, title):
+def finish(figure: Figure, grid: np.ndarray, title: str) -> None:
     """Titles, scales and legends once everything is drawn."""
     for axes, name in zip(grid.flat, ("natural frequencies", "peak frequency", "cost",
                                       "peak amplitude, best preload")):
@@ -53,7 +62,7 @@ def finish(figure, grid, title):
     figure_title(figure, title)
 
 
-def plot_convergence(rows, names, stem, title):
+def plot_convergence(rows: Sequence[Mapping[str, Any]], names: Sequence[str], stem: str, title: str) -> None:
     """STEM.svg and .png of one flat record per size, coarse to fine; names: those of the curves."""
     palette = colormaps["viridis"]([0.93 * i / max(len(names) - 1, 1) for i in range(len(names))])
     figure, grid = subplots(2, 2, (8.6, 5.4), sharex=True)

@@ -1,24 +1,32 @@
 """Response curves of a run in one figure: stable solid, unstable dashed, peaks and folds marked."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Iterator, Mapping, Optional, Sequence, Union
+
 import numpy as np
 from matplotlib.lines import Line2D
 
 from microslip.branch import AMPLITUDE, cubics, polyline
 from microslip.plots.numbers import is_number
-from microslip.plots.run_folder import load_of
+from microslip.plots.run_folder import Run, load_of
 from microslip.plots.style import ACCENT, legend_below, light_grid, log_scale, subplots
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 DASHED = (0, (2.5, 1.6))
 DOTTED = (0, (0.8, 1.8))
 LINES = {1: "-", 0: DASHED, -1: DOTTED}  # by the column `stable`
 
 
-def kind_of(flags):
+def kind_of(flags: Sequence[int]) -> int:
     """Of an interval, from the stability of its ends that are no folds: unstable before not judged before stable."""
     return 0 if 0 in flags or not flags else min(flags)
 
 
-def branches(table):
+def branches(table: Mapping[str, Any]) -> Iterator[tuple[int, slice]]:
     """Runs of intervals of one kind: (1 stable, 0 unstable or -1 not judged, slice of points)."""
     stable, mark = table["stable"], table["mark"]
     kinds = [kind_of([int(stable[k]) for k in (i, i + 1) if mark[k] != "fold"]) for i in range(len(stable) - 1)]
@@ -29,19 +37,19 @@ def branches(table):
             start = i
 
 
-def line_width(load):
+def line_width(load: Union[float, str]) -> float:
     """Curves that follow a limit lie on it, and both are seen."""
     return 1.3 if is_number(load) else 2.4
 
 
-def richer_peak(curve):
+def richer_peak(curve: Mapping[str, Any]) -> Optional[tuple[int, float, float]]:
     """The highest peak solved again with more harmonics: (harmonics, Hz, m); None: not checked, or not found."""
     more = (curve.get("harmonics") or {}).get("with_more") or {}
     found = (more.get("highest"), more.get("frequency_Hz"), more.get("amplitude_m"))
     return found if all(is_number(value) for value in found) else None
 
 
-def draw_richer(axes, run, curve):
+def draw_richer(axes: Axes, run: Run, curve: Mapping[str, Any]) -> None:
     """A star, and the way to it from the peak that the curve has."""
     richer, peak = richer_peak(curve), curve.get("peak")
     if not richer or not peak:
@@ -54,7 +62,7 @@ def draw_richer(axes, run, curve):
                  linewidth=0.8, zorder=5)
 
 
-def draw_bar(axes, run, curve):
+def draw_bar(axes: Axes, run: Run, curve: Mapping[str, Any]) -> None:
     """How far the highest peak can be trusted, where the run tells it: a cross of both half widths."""
     bar, peak = curve.get("bar"), curve.get("peak")
     if not bar or not peak:
@@ -65,7 +73,7 @@ def draw_bar(axes, run, curve):
                   fmt="none", ecolor=run.colour(load_of(curve)), elinewidth=0.7, capsize=1.5, alpha=0.7, zorder=3.4)
 
 
-def draw_curve(axes, run, curve, table):
+def draw_curve(axes: Axes, run: Run, curve: Mapping[str, Any], table: Mapping[str, Any]) -> None:
     load = load_of(curve)
     colour = run.colour(load)
     frequency = table["frequency_Hz"]
@@ -87,7 +95,7 @@ def draw_curve(axes, run, curve, table):
         axes.scatter(frequency[-1], amplitude[-1], marker="x", s=22, color=ACCENT, zorder=5)
 
 
-def legend_of_loads(axes, run):
+def legend_of_loads(axes: Axes, run: Run) -> None:
     """One line per preload, in order, between the limits."""
     loads = [load_of(curve) for curve, _ in run.curves]
     order = (["free"] if "free" in loads else []) + list(run.colours) + (
@@ -98,13 +106,13 @@ def legend_of_loads(axes, run):
                 title="preload scale" if run.scaled else "preload")
 
 
-def not_judged(run):
+def not_judged(run: Run) -> list[Line2D]:
     """An entry of the legend, where there are such points."""
     some = any(kind == -1 for _, table in run.curves for kind, _ in branches(table))
     return [Line2D([], [], linestyle=DOTTED, color="0.3", label="stability not judged")] if some else []
 
 
-def legend_of_marks(figure, run):
+def legend_of_marks(figure: Figure, run: Run) -> None:
     grey = {"color": "0.3"}
     kinds = [Line2D([], [], label="stable", **grey),
              Line2D([], [], linestyle=DASHED, label="unstable", **grey),
@@ -123,7 +131,7 @@ def legend_of_marks(figure, run):
     legend_below(figure, kinds)
 
 
-def finish_axes(axes, run):
+def finish_axes(axes: Axes, run: Run) -> None:
     """Scales and names of axes that hold curves."""
     log_scale(axes.yaxis)
     axes.margins(x=0.01)
@@ -132,7 +140,7 @@ def finish_axes(axes, run):
     light_grid(axes)
 
 
-def curves_figure(run):
+def curves_figure(run: Run) -> Optional[Figure]:
     """All curves; None where there are solutions at one frequency only."""
     if all(len(np.unique(table["frequency_Hz"])) < 2 for _, table in run.curves):
         return None

@@ -1,7 +1,10 @@
 """Loops of a contact point over one period, coloured by state."""
 
+from __future__ import annotations
+
 import csv
 import os
+from typing import TYPE_CHECKING, Iterator, Sequence
 
 import numpy as np
 from matplotlib.lines import Line2D
@@ -11,19 +14,23 @@ from microslip.plots.numbers import length_unit, pressure_unit
 from microslip.plots.output import run_shared, save
 from microslip.plots.style import STATES, figure_title, legend_below, light_grid, subplots
 
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
 COLOURS = {name: (number, colour) for number, name, colour in STATES}
 WORDS = {"stick": "stick", "positive_slip": "positive slip", "negative_slip": "negative slip",
          "slip": "slip in two directions", "separated": "separated"}
 
 
-def outline(width):
+def outline(width: float) -> list[withStroke]:
     return [withStroke(linewidth=width + 1.2, foreground="0.6")]
 
 
 class Samples:
     """One cycle: columns by name, and the state from each sample on."""
 
-    def __init__(self, path):
+    def __init__(self, path: str) -> None:
         with open(path, newline="", encoding="utf-8") as file:
             rows = list(csv.DictReader(file))
         self.columns = {name: np.array([float(row[name]) for row in rows])
@@ -31,16 +38,16 @@ class Samples:
         self.states = [WORDS[row["state"]] for row in rows]
         self.two_directions = bool(np.any(self["w_m"] != 0.0))
 
-    def __getitem__(self, name):
+    def __getitem__(self, name: str) -> np.ndarray:
         return self.columns[name]
 
 
-def unit_of(samples, name):
+def unit_of(samples: Samples, name: str) -> tuple[str, float]:
     largest = np.max(np.abs(samples[name]))
     return length_unit(largest) if name.endswith("_m") else pressure_unit(largest)
 
 
-def runs(samples, chosen):
+def runs(samples: Samples, chosen: np.ndarray) -> Iterator[tuple[slice, str]]:
     """Slices of points joined by chosen intervals of one state, with their state."""
     states = samples.states
     start = 0
@@ -51,14 +58,14 @@ def runs(samples, chosen):
             start = i
 
 
-def draw_lines(axes, samples, points, chosen, width):
+def draw_lines(axes: Axes, samples: Samples, points: np.ndarray, chosen: np.ndarray, width: float) -> None:
     """One colour per state. The light grey of separation gets an outline."""
     for part, state in sorted(runs(samples, chosen), key=lambda run: run[1] != "separated"):
         axes.plot(points[part, 0], points[part, 1], color=COLOURS[state][1], linewidth=width,
                   path_effects=outline(width) if state == "separated" else None)
 
 
-def draw(axes, samples, abscissa, ordinate, labels):
+def draw(axes: Axes, samples: Samples, abscissa: str, ordinate: str, labels: tuple[str, str]) -> None:
     """A closed line; where the way back may hide the way forth, it is drawn wide below."""
     units = [unit_of(samples, name) for name in (abscissa, ordinate)]
     if abscissa.endswith("Pa"):  # an orbit has one unit and no distortion
@@ -79,7 +86,7 @@ def draw(axes, samples, abscissa, ordinate, labels):
     light_grid(axes, "0.93")
 
 
-def legend(figure, samples):
+def legend(figure: Figure, samples: Samples) -> None:
     present = sorted({COLOURS[state] + (state,) for state in samples.states})
     handles = [Line2D([], [], color=colour, linewidth=1.8, label=name)
                for _, colour, name in present]
@@ -90,7 +97,7 @@ def legend(figure, samples):
     legend_below(figure, handles)
 
 
-def plot_cycle(folder, name):
+def plot_cycle(folder: str, name: str) -> None:
     """FOLDER/NAME.svg and .png from FOLDER/NAME.csv."""
     samples = Samples(os.path.join(folder, name + ".csv"))
     n_rows = 2 if samples.two_directions else 1
@@ -106,6 +113,6 @@ def plot_cycle(folder, name):
     save(figure, folder, name)
 
 
-def plot_cycles(folder, names):
+def plot_cycles(folder: str, names: Sequence[str]) -> bool:
     """Shared out to the cores. Whether all could be drawn."""
     return run_shared([lambda name=name: plot_cycle(folder, name) for name in names])

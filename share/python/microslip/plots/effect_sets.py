@@ -1,24 +1,30 @@
 """Seconds of a curve by the set of effects of its scene, beside the full model, as tests/benchmarks/effect_sets.py measures them."""
 
+from __future__ import annotations
+
 import csv
+from typing import TYPE_CHECKING, Any, Mapping, Sequence
 
 from matplotlib.patches import Patch
 
 from microslip.plots.output import save_as
 from microslip.plots.style import ACCENT, legend_below, light_grid, subplots
 
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
 OWN, FULL = ACCENT, "0.75"
 THICKNESS = 0.38  # of a bar; two of them share a row
 
 
-def read_sets(path):
+def read_sets(path: str) -> list[dict[str, Any]]:
     """Rows of the table, numbers as such."""
     with open(path, newline="", encoding="utf-8") as file:
         return [{key: value if key == "set" else float(value) for key, value in row.items()}
                 for row in csv.DictReader(file, delimiter=";")]
 
 
-def draw_bars(axes, rows):
+def draw_bars(axes: Axes, rows: Sequence[Mapping[str, Any]]) -> None:
     places = range(len(rows))
     for key, colour, shift in (("seconds", OWN, -0.5), ("full_seconds", FULL, 0.5)):
         axes.barh([place + shift * THICKNESS for place in places], [row[key] for row in rows], THICKNESS, color=colour)
@@ -34,7 +40,7 @@ def draw_bars(axes, rows):
     light_grid(axes)
 
 
-def plot_effect_sets(table, output):
+def plot_effect_sets(table: str, output: str) -> None:
     """A pair of bars for each set of effects."""
     rows = read_sets(table)
     figure, axes = subplots(1, 1, (9.0, 0.8 + 0.42 * len(rows)))

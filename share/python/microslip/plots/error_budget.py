@@ -1,10 +1,18 @@
 """What every choice of the discretisation does to the highest peak of every curve, to its amplitude and to the energy it
 dissipates: one bar per curve, in parts."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Mapping, Optional, Sequence
+
 import numpy as np
 
-from microslip.plots.run_folder import load_of
+from microslip.plots.run_folder import Run, load_of
 from microslip.plots.style import legend_below, light_grid, subplots
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 SOURCES = ("harmonics", "mesh", "second_direction", "cells", "basis", "fit", "instants", "newton")
 COLOURS = ("#c44e52", "#4c72b0", "#8172b3", "#55a868", "#ccb974", "#64b5cd", "0.6", "0.35")
@@ -15,7 +23,7 @@ GOALS = (("peak_amplitude", "effect on the amplitude of the peak [%]"),
          ("dissipated_energy", "effect on the energy dissipated there [%]"))
 
 
-def effects(run, curve, goal):
+def effects(run: Run, curve: Mapping[str, Any], goal: str) -> Optional[list[float]]:
     """Sizes of the effects on a goal [%], in the order of SOURCES; None without rows."""
     rows = [row for row in run.summary.get("error_budget", ())
             if row["curve"] == curve["name"] and row["goal"] == goal]
@@ -25,7 +33,7 @@ def effects(run, curve, goal):
     return [sizes.get(source, 0.0) for source in SOURCES]
 
 
-def draw_goal(axes, told):
+def draw_goal(axes: Axes, told: Sequence[Optional[Sequence[float]]]) -> None:
     """told: sizes by source of every curve, or None where there are none."""
     rows = np.arange(len(told))
     height = 0.8 / len(SOURCES)
@@ -41,7 +49,7 @@ def draw_goal(axes, told):
     light_grid(axes)
 
 
-def error_budget_figure(run):
+def error_budget_figure(run: Run) -> Optional[Figure]:
     """None without a budget. Runs of earlier programs tell nothing of the energy."""
     curves = [curve for curve, _ in run.curves if effects(run, curve, "peak_amplitude")]
     if not curves:

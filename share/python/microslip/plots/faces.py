@@ -1,6 +1,9 @@
 """Numbered faces of a body, drawn from two sides: no depth buffer, triangles are painted from the back."""
 
+from __future__ import annotations
+
 import json
+from typing import TYPE_CHECKING, Any, Mapping, Optional
 
 import numpy as np
 from matplotlib import colormaps
@@ -10,13 +13,16 @@ from microslip.plots.output import save_as
 from microslip.plots.scene import HALO, LIGHT, draw_triad, view_axes
 from microslip.plots.style import figure_title, subplots
 
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
 COLOURS = colormaps["tab20"].colors
 
 
 class Body:
     """Triangles with their faces, normals and areas."""
 
-    def __init__(self, data):
+    def __init__(self, data: Mapping[str, Any]) -> None:
         self.corners = np.array(data["nodes"], dtype=float)[np.array(data["triangles"], dtype=int)]
         self.face = np.array(data["face"], dtype=int)
         cross = np.cross(self.corners[:, 1] - self.corners[:, 0], self.corners[:, 2] - self.corners[:, 0])
@@ -24,18 +30,18 @@ class Body:
         self.normals = cross / np.maximum(2.0 * self.areas, np.finfo(float).tiny)[:, None]
         self.centres = self.corners.mean(axis=1)
 
-    def extent(self):
+    def extent(self) -> np.ndarray:
         return np.ptp(self.corners.reshape(-1, 3), axis=0)
 
 
-def two_views(body):
+def two_views(body: Body) -> list[np.ndarray]:
     """The longest side stands upright; the second looks at the back, from below."""
     up = np.eye(3)[int(np.argmax(body.extent()))]
     eye = np.roll(up, 1) + 0.75 * np.roll(up, 2) + 0.5 * up
     return [view_axes(up, eye), view_axes(up, -eye)]
 
 
-def paint(axes, body, view):
+def paint(axes: Axes, body: Body, view: np.ndarray) -> None:
     """Triangles towards the eye, the farthest first, shaded by their angle to the light."""
     seen = np.flatnonzero(body.normals @ view[2] > 0.0)
     seen = seen[np.argsort(body.centres[seen] @ view[2])]
@@ -49,14 +55,14 @@ def paint(axes, body, view):
 class Seen:
     """The triangles as they lie in a view."""
 
-    def __init__(self, body, view):
+    def __init__(self, body: Body, view: np.ndarray) -> None:
         self.body, self.view = body, view
         self.flat = body.corners @ view[:2].T
         self.depth = body.centres @ view[2]
         self.low, self.high = self.flat.min(axis=1), self.flat.max(axis=1)
         self.margin = 1e-3 * np.max(body.extent())
 
-    def hidden(self, triangle):
+    def hidden(self, triangle: int) -> bool:
         """Whether another triangle lies between this one's centre and the eye."""
         at = self.view[:2] @ self.body.centres[triangle]
         around = (self.low <= at).all(axis=1) & (self.high >= at).all(axis=1)
@@ -65,7 +71,7 @@ class Seen:
         return bool(np.any((side[0] == side[1]) & (side[1] == side[2])))
 
 
-def place_of_number(body, face, seen_from):
+def place_of_number(body: Body, face: int, seen_from: Seen) -> Optional[int]:
     """The triangle of a face in the middle of what can be seen of it; None: nothing can."""
     own = np.flatnonzero((body.face == face) & (body.normals @ seen_from.view[2] > 0.05))
     seen = [triangle for triangle in own[::max(1, own.size // 60)] if not seen_from.hidden(triangle)]
@@ -75,7 +81,7 @@ def place_of_number(body, face, seen_from):
     return seen[int(np.argmin(np.linalg.norm(body.centres[seen] - middle, axis=1)))]
 
 
-def plot_faces(data, picture):
+def plot_faces(data: str, picture: str) -> None:
     with open(data, encoding="utf-8") as file:
         faces = json.load(file)
     body = Body(faces)

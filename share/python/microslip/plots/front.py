@@ -1,13 +1,19 @@
 """Error against time of the methods of tests/benchmarks/bench_front."""
 
+from __future__ import annotations
+
 import csv
 import math
+from typing import TYPE_CHECKING, Iterable, Mapping, Sequence, Tuple
 
 from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, NullFormatter
 
 from microslip.plots.output import save_as
 from microslip.plots.style import ACCENT, legend_below, light_grid, subplots
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 METHODS = [  # name, colour, mark
     ("closed form", ACCENT, "*"),
@@ -19,11 +25,12 @@ METHODS = [  # name, colour, mark
     ("centres of cells", "#f4a259", "o"),
     ("extrapolated", "#b23a6f", "s"),
 ]
+Mark = Tuple[float, float]  # time and error
 READ = (1e-6, 1e-2)  # errors a user sees
 SMALLEST = 1e-16  # an error below is drawn there
 
 
-def read_front(path):
+def read_front(path: str) -> dict[str, dict[str, list[Mark]]]:
     """{kind: {method: [(time, error)]}} in the order of the file."""
     kinds = {}
     with open(path, newline="", encoding="utf-8") as file:
@@ -33,7 +40,7 @@ def read_front(path):
     return kinds
 
 
-def front_of(marks):
+def front_of(marks: Iterable[Mark]) -> list[Mark]:
     """Those of which no other is faster and more accurate, from the fastest on."""
     front = []
     for time, error in sorted(marks):
@@ -42,7 +49,7 @@ def front_of(marks):
     return front
 
 
-def draw_kind(axes, kind, methods):
+def draw_kind(axes: Axes, kind: str, methods: Mapping[str, Sequence[Mark]]) -> None:
     axes.axhspan(*READ, color="0.95", zorder=0)
     for name, colour, mark in METHODS:
         if name in methods:
@@ -64,7 +71,7 @@ def draw_kind(axes, kind, methods):
     axes.set_xlabel("µs per patch" if "patch" in kind else "µs per point")
 
 
-def plot_front(table, output):
+def plot_front(table: str, output: str) -> None:
     """One panel for each kind of point, one for the rule over the patch."""
     kinds = read_front(table)
     figure, grid = subplots(-(-len(kinds) // 4), 4, (11.0, 7.6))

@@ -5,29 +5,36 @@ which are not bound to the phases of the map. Between two points that go through
 straight; where slip ends along the line it closes at the zero of its guard.
 """
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Iterator, Optional, Sequence
+
 import numpy as np
 from matplotlib.collections import PolyCollection
 
-from microslip.plots.line_map import OPEN, STICK, cell_edges
+from microslip.plots.line_map import OPEN, STICK, Cycle, LineMap, cell_edges
 from microslip.plots.style import STATE_COLOURS
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 DASHES, DOTS = (0, (3, 1.5)), (0, (1, 1.2))
 KINDS = [("stick to slip", "-"), ("slip to stick", DASHES), ("contact opens or closes", DOTS)]
 
 
-def kind_of(start, end):
+def kind_of(start: int, end: int) -> int:
     """Which of KINDS a change of state is."""
     if OPEN in (start, end):
         return 2
     return 1 if end == STICK else 0
 
 
-def near(angle, other):
+def near(angle: float, other: float) -> float:
     """An angle, turned by whole periods to lie within half of one from another."""
     return angle + 360.0 * np.round((other - angle) / 360.0)
 
 
-def aligned(cycle, other):
+def aligned(cycle: Cycle, other: Cycle) -> Optional[Cycle]:
     """The other cycle from the change that matches the first of this one, with angles near those of this one;
     None where it goes through other states."""
     n = len(cycle)
@@ -45,7 +52,7 @@ def aligned(cycle, other):
     return best
 
 
-def spans(cycle):
+def spans(cycle: Cycle) -> Iterator[tuple[int, float, float]]:
     """(state, begin, end) of each part of a cycle, end after begin."""
     n = len(cycle)
     for i, (state, begin) in enumerate(cycle):
@@ -56,7 +63,7 @@ def spans(cycle):
 class Field:
     """Areas of one state over (x, θ), and the lines between them."""
 
-    def __init__(self, line_map):
+    def __init__(self, line_map: LineMap) -> None:
         self.polygons, self.colours = [], []
         self.lines = []  # (kind, [x], [angle])
         self.map = line_map
@@ -66,12 +73,12 @@ class Field:
             self.add_pair(point, point + 1)
         self.add_end(len(line_map.x) - 1, self.edges[-1])
 
-    def area(self, state, corners):
+    def area(self, state: int, corners: Sequence[tuple[float, float]]) -> None:
         for shift in (-360.0, 0.0, 360.0):
             self.polygons.append([(x, angle + shift) for x, angle in corners])
             self.colours.append(STATE_COLOURS[int(state)])
 
-    def line(self, kind, x, angle):
+    def line(self, kind: int, x: Sequence[float], angle: Sequence[float]) -> None:
         """A piece of a line: joined to one that ends where it begins."""
         for other, xs, angles in self.lines:
             if other == kind and xs[-1] == x[0] and abs(near(angle[0], angles[-1]) - angles[-1]) < 1e-9:
@@ -80,17 +87,17 @@ class Field:
                 return
         self.lines.append((kind, list(x), list(angle)))
 
-    def whole(self, point, x0, x1):
+    def whole(self, point: int, x0: float, x1: float) -> None:
         """One state all the time."""
         self.area(self.map.state[point, 0], [(x0, 0), (x1, 0), (x1, 360), (x0, 360)])
 
-    def strip(self, first, second, x0, x1):
+    def strip(self, first: Cycle, second: Cycle, x0: float, x1: float) -> None:
         """Between two positions whose cycles match."""
         for i, ((state, a0, a1), (_, b0, b1)) in enumerate(zip(spans(first), spans(second))):
             self.area(state, [(x0, a0), (x1, b0), (x1, near(b1, a1)), (x0, a1)])
             self.line(kind_of(first[i - 1][0], state), (x0, x1), (a0, b0))
 
-    def add_end(self, point, edge):
+    def add_end(self, point: int, edge: float) -> None:
         """The outer half of the first and the last cell, as the point in it."""
         cycle, x0, x1 = self.map.cycles[point], *sorted((self.map.x[point], edge))
         if cycle:
@@ -98,7 +105,7 @@ class Field:
         else:
             self.whole(point, x0, x1)
 
-    def add_pair(self, left, right):
+    def add_pair(self, left: int, right: int) -> None:
         x0, x1 = self.map.x[left], self.map.x[right]
         first, second = self.map.cycles[left], self.map.cycles[right]
         match = aligned(first, second)
@@ -115,7 +122,7 @@ class Field:
             self.add_end(left, middle)
             self.add_end(right, middle)
 
-    def close(self, slips, sticks):
+    def close(self, slips: int, sticks: int) -> None:
         """Between a point that slips at times and one that never does: each slip shrinks towards its end."""
         cycle, x, x_end = self.map.cycles[slips], self.map.x[slips], self.map.apex(slips, sticks)
         self.whole(sticks, *sorted((x, self.map.x[sticks])))
@@ -126,7 +133,7 @@ class Field:
             self.line_to_tip(kind_of(cycle[i - 1][0], state), (x, begin), (x_end, self.tip_of(cycle, i)))
 
     @staticmethod
-    def tip_of(cycle, i):
+    def tip_of(cycle: Cycle, i: int) -> float:
         """The angle at which the slip that a change belongs to dies out: where stick comes next."""
         if cycle[i][0] == STICK:
             return cycle[i][1]
@@ -136,10 +143,10 @@ class Field:
                 return angle if angle > cycle[i][1] else angle + 360.0
         return cycle[i][1]
 
-    def line_to_tip(self, kind, at, tip):
+    def line_to_tip(self, kind: int, at: tuple[float, float], tip: tuple[float, float]) -> None:
         pieces = sorted((at, tip))
         self.line(kind, *zip(*pieces))
 
-    def draw(self, axes):
+    def draw(self, axes: Axes) -> None:
         axes.add_collection(PolyCollection(self.polygons, facecolors=self.colours, linewidth=0, antialiased=False,
                                            rasterized=True))

@@ -1,15 +1,19 @@
 """The contact map of points on a line: where each stands, and when its states begin."""
 
+from __future__ import annotations
+
 import os
+from typing import List, Optional, Tuple
 
 import numpy as np
 
 from microslip.files import data_file, require_shape
 
+Cycle = List[Tuple[int, float]]  # states in order of time, each with the angle at which it begins [deg]
 STICK, POSITIVE, NEGATIVE, OPEN, SLIP = range(5)
 
 
-def line_positions(folder):
+def line_positions(folder: str) -> Optional[np.ndarray]:
     """Coordinate p or r [m] of contact points on a line; None where they lie otherwise, or nowhere."""
     with data_file(os.path.join(folder, "model.h5")) as file:
         if "contact/points" not in file or len(file["contact/points"]) < 3:
@@ -25,7 +29,7 @@ def line_positions(folder):
 class LineMap:
     """One map of points on a line, in order of position, with the changes of state within the period."""
 
-    def __init__(self, folder, name, position):
+    def __init__(self, folder: str, name: str, position: np.ndarray) -> None:
         self.order = np.argsort(position)
         self.x = position[self.order]
         path = os.path.join(folder, "maps", name + ".h5")
@@ -41,7 +45,7 @@ class LineMap:
             starts = read("state_starts_deg") if "state_starts_deg" in file else None
         self.cycles = None if starts is None else [cycle_of(row.reshape(5, -1)) for row in starts]
 
-    def transitions(self, start, end):
+    def transitions(self, start: int, end: int) -> np.ndarray:
         """Angles [deg] of one change of state, one per point, NaN where it has none; of several the first."""
         angles = np.full(len(self.x), np.nan)
         for point, cycle in enumerate(self.cycles):
@@ -51,7 +55,7 @@ class LineMap:
                     angles[point] = angle
         return angles
 
-    def apex(self, slips, sticks):
+    def apex(self, slips: int, sticks: int) -> float:
         """Where between two neighbours slip dies out: the zero of its guard, else the middle."""
         if self.guard is not None and self.guard[slips] > 0 > self.guard[sticks]:
             share = self.guard[slips] / (self.guard[slips] - self.guard[sticks])
@@ -60,13 +64,13 @@ class LineMap:
         return self.x[slips] + share * (self.x[sticks] - self.x[slips])
 
 
-def cycle_of(starts):
+def cycle_of(starts: np.ndarray) -> Cycle:
     """[(state, angle at which it begins [deg]), …] in order of time; empty: one state all the time."""
     return sorted(((state, angle) for state, row in enumerate(starts) for angle in row if np.isfinite(angle)),
                   key=lambda change: change[1])
 
 
-def cell_edges(x):
+def cell_edges(x: np.ndarray) -> np.ndarray:
     """Borders between points, and as far outside of the first and the last."""
     middle = 0.5 * (x[1:] + x[:-1])
     return np.concatenate([[2 * x[0] - middle[0]], middle, [2 * x[-1] - middle[-1]]])

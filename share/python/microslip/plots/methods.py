@@ -4,7 +4,10 @@ Between two rows the branch is read off a cubic through four rows over their cho
 steps that turn by some 0.13 rad, so that this is accurate to some 1e-4 of the step.
 """
 
+from __future__ import annotations
+
 import os
+from typing import TYPE_CHECKING, Any, Mapping, Optional, Sequence
 
 import numpy as np
 from matplotlib.lines import Line2D
@@ -13,11 +16,15 @@ from microslip.files import read_summary, read_table
 from microslip.plots.numbers import length_unit
 from microslip.plots.style import subplots
 
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
 PIECES = 40  # straight pieces between two rows of the branch; their sagitta is 1600 times below the rows'
 COLOURS = ["#12355b", "#c1121f", "#5b9279", "#f4a259", "#b23a6f", "#6c757d", "#3a86ff", "#8d6e00"]
 
 
-def curves_of(folder):
+def curves_of(folder: str) -> dict[str, dict[str, Any]]:
     """Tables of the curves of a run by name; limits are left out."""
     summary = read_summary(os.path.join(folder, "summary.json"))
     tables = {}
@@ -30,7 +37,7 @@ def curves_of(folder):
     return tables
 
 
-def through(points, chords, at):
+def through(points: np.ndarray, chords: np.ndarray, at: np.ndarray) -> np.ndarray:
     """Lagrange's polynomial through points (n × 2) given at chord lengths (n)."""
     value = np.zeros((len(at), points.shape[1]))
     for i, point in enumerate(points):
@@ -40,7 +47,7 @@ def through(points, chords, at):
     return value
 
 
-def fine_branch(table):
+def fine_branch(table: Mapping[str, Any]) -> np.ndarray:
     """Frequency and amplitude along the branch, PIECES points for each row."""
     points = np.column_stack([table["frequency_Hz"], table["amplitude_m"]])
     if len(points) < 2:
@@ -57,7 +64,7 @@ def fine_branch(table):
     return np.vstack(pieces + [points[-1:]])
 
 
-def amplitudes_at(branch, frequency):
+def amplitudes_at(branch: np.ndarray, frequency: float) -> list[float]:
     """Of all solutions of the branch at a frequency."""
     f, a = branch.T
     low, high = np.minimum(f[:-1], f[1:]), np.maximum(f[:-1], f[1:])
@@ -68,7 +75,7 @@ def amplitudes_at(branch, frequency):
     return found
 
 
-def differences(branch, table):
+def differences(branch: np.ndarray, table: Mapping[str, Any]) -> np.ndarray:
     """Signed difference of each steady state from the nearest solution; NaN where the branch has none."""
     result = []
     for frequency, amplitude in zip(table["frequency_Hz"], table["amplitude_m"]):
@@ -77,21 +84,21 @@ def differences(branch, table):
     return np.array(result)
 
 
-def unstable_parts(table):
+def unstable_parts(table: Mapping[str, Any]) -> list[slice]:
     """Slices of rows in which no row is stable, a neighbour on each side included."""
     unstable = table["stable"] == 0
     edges = np.flatnonzero(np.diff(np.concatenate([[0], unstable.astype(int), [0]])))
     return [slice(max(a - 1, 0), b + 1) for a, b in edges.reshape(-1, 2)]
 
 
-def draw_branch(axes, table, branch, colour, unit):
+def draw_branch(axes: Axes, table: Mapping[str, Any], branch: np.ndarray, colour: str, unit: float) -> None:
     axes.plot(branch[:, 0], branch[:, 1] / unit, color=colour, lw=1.1, zorder=2)
     for part in unstable_parts(table):
         axes.plot(table["frequency_Hz"][part], table["amplitude_m"][part] / unit, color="white",
                   lw=1.4, ls=(0, (2, 2)), zorder=3)
 
 
-def compared(name, run, branch, table, peak):
+def compared(name: str, run: str, branch: np.ndarray, table: Mapping[str, Any], peak: float) -> tuple[np.ndarray, float, str]:
     """Differences in % of the peak, and a line about them; infinite where nothing can be compared."""
     share = 100.0 * differences(branch, table) / peak
     valid = np.isfinite(share)
@@ -103,7 +110,8 @@ def compared(name, run, branch, table, peak):
         f"{abs(share[worst]):.4f} % of the peak at {table['frequency_Hz'][worst]:.6g} Hz")
 
 
-def draw_curve(axes, name, colour, table, times, unit):
+def draw_curve(axes: tuple[Axes, Axes], name: str, colour: str, table: Mapping[str, Any],
+               times: Sequence[tuple[str, Mapping[str, Any]]], unit: float) -> tuple[float, list[str]]:
     """The branch above, steady states of each time run above and their differences below. The largest of these [%],
     and a line of text per run."""
     top, bottom = axes
@@ -121,7 +129,7 @@ def draw_curve(axes, name, colour, table, times, unit):
     return largest, texts
 
 
-def label(top, bottom, names, unit_name, limit):
+def label(top: Axes, bottom: Axes, names: Sequence[str], unit_name: str, limit: Optional[float]) -> None:
     handles = [Line2D([], [], color=COLOURS[i % len(COLOURS)], label=name.replace("_", " "))
                for i, name in enumerate(names)]
     handles += [Line2D([], [], color="0.3", marker=marker, ls="none", mfc="none", ms=4, label=text)
@@ -135,7 +143,8 @@ def label(top, bottom, names, unit_name, limit):
         bottom.axhspan(-limit, limit, color="0.92", zorder=0)
 
 
-def methods_figure(balance, times, limit=None):
+def methods_figure(balance: Mapping[str, Mapping[str, Any]], times: Sequence[tuple[str, Mapping[str, Mapping[str, Any]]]],
+                   limit: Optional[float] = None) -> Optional[tuple[Figure, float, list[str]]]:
     """The figure, the largest difference [% of the peak] and a line of text per curve and run.
 
     balance: tables of the curves by name (curves_of); times: (name, such tables) of each time run. None where no curve is

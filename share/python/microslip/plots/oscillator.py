@@ -1,6 +1,9 @@
 """Motion of one contact point over a period, as the four graphs of paper B, figure 6."""
 
+from __future__ import annotations
+
 import os
+from typing import TYPE_CHECKING, Sequence
 
 import numpy as np
 from matplotlib.lines import Line2D
@@ -10,13 +13,16 @@ from microslip.plots.output import save_as
 from microslip.plots.run_folder import Run, first_map
 from microslip.plots.style import legend_below, light_grid, subplots
 
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
 STUCK, MOVING = "#12355b", "#f4a259"
 
 
 class PointMotion:
     """Relative displacement of one point over one period, closed at its end."""
 
-    def __init__(self, folder, point):
+    def __init__(self, folder: str, point: int) -> None:
         name = first_map(Run(folder))
         with data_file(os.path.join(folder, "maps", name + ".h5")) as file:
             if not 0 <= point < len(file["state"]):
@@ -32,14 +38,14 @@ class PointMotion:
         self.drive = np.sin(np.radians(self.phase))
 
 
-def draw(axes, x, y, stuck):
+def draw(axes: Axes, x: np.ndarray, y: np.ndarray, stuck: np.ndarray) -> None:
     """The motion, with its stuck parts on top."""
     axes.plot(x, y, color=MOVING, linewidth=1.2)
     axes.plot(np.where(stuck, x, np.nan), y, color=STUCK, linewidth=2.4)
     light_grid(axes)
 
 
-def draw_row(row, motion):
+def draw_row(row: Sequence[Axes], motion: PointMotion) -> None:
     draw(row[0], motion.phase, motion.u, motion.stuck)
     draw(row[1], motion.phase, motion.velocity, motion.stuck)
     draw(row[2], motion.u, motion.velocity, motion.stuck)
@@ -53,7 +59,7 @@ def draw_row(row, motion):
         axes.set_xticks(np.arange(0, 361, 90))
 
 
-def plot_oscillator(folders, point, path):
+def plot_oscillator(folders: Sequence[str], point: int, path: str) -> None:
     """A row of graphs per run, of the point with this number from 0."""
     motions = [PointMotion(folder, point) for folder in folders]
     figure, grid = subplots(len(motions), 4, (11, 0.7 + 2.2 * len(motions)), squeeze=False)

@@ -1,17 +1,23 @@
 """Figures to files, several at a time."""
 
+from __future__ import annotations
+
 import io
 import os
 import sys
 import traceback
+from typing import TYPE_CHECKING, Callable, Sequence
 
 from microslip.files import RunError, write_whole
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 # Neither the day nor the version of a library: the same run gives the same files.
 METADATA = {"svg": {"Date": None}, "png": {"Software": None}}
 
 
-def settle(figure):
+def settle(figure: Figure) -> None:
     """Gives texts that are empty a place; else it is searched for in each pass, a third of the time of a figure."""
     for axes in figure.axes + [child for axes in figure.axes for child in axes.child_axes]:
         for axis in (axes.xaxis, axes.yaxis):
@@ -21,7 +27,7 @@ def settle(figure):
             axes.set_title("", y=1.0)
 
 
-def save(figure, folder, name):
+def save(figure: Figure, folder: str, name: str) -> None:
     """FOLDER/NAME.svg and .png, each whole or not at all."""
     settle(figure)
     figure.get_layout_engine().execute(figure)
@@ -33,12 +39,12 @@ def save(figure, folder, name):
         write_whole(path, buffer.getvalue())
 
 
-def save_as(figure, path):
+def save_as(figure: Figure, path: str) -> None:
     """One file in the format its name says."""
     figure.savefig(path, metadata=METADATA.get(os.path.splitext(path)[1][1:].lower()))
 
 
-def run_shared(tasks):
+def run_shared(tasks: Sequence[Callable[[], object]]) -> bool:
     """Shares the figures out to as many processes as there are cores. Plain forks: they end by
     themselves whatever happens to this process. False when one of them failed (it has said why)."""
     n_processes = min(len(os.sched_getaffinity(0)), len(tasks))

@@ -1,7 +1,11 @@
 """Figure of a contact map: states at four phases and sums over the period; points in a row over the phase."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Optional
+
 import numpy as np
-from matplotlib.collections import PolyCollection
+from matplotlib.collections import Collection, PolyCollection
 from matplotlib.colors import ListedColormap, to_rgba_array
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
@@ -10,12 +14,17 @@ from microslip.arrows import arrows_at
 from microslip.plots.boundaries import draw_areas, draw_boundaries, draw_guards, guard_handles, instant_handle
 from microslip.plots.style import STATE_COLOURS, state_legend, subplots
 
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from microslip.plots.contact_map import ContactMap
+
 STATE_RGBA = to_rgba_array(STATE_COLOURS)
 ARROW = Line2D([], [], color="white", markeredgecolor="black", markeredgewidth=0.4, marker=r"$\rightarrow$", markersize=12,
                linestyle="none", label="direction and speed of slip")
 
 
-def frame_patch(axes, contact):
+def frame_patch(axes: Axes, contact: ContactMap) -> None:
     """Leaves a little room about the patch, in its own proportions."""
     pad = 0.02 * max(np.max(contact.high - contact.low), 1e-3)
     axes.set_xlim(contact.low[0] - pad, contact.high[0] + pad)
@@ -23,7 +32,8 @@ def frame_patch(axes, contact):
     axes.set_aspect("equal")
 
 
-def draw_patch(axes, contact, colours=None, values=None, cmap=None):
+def draw_patch(axes: Axes, contact: ContactMap, colours: Optional[np.ndarray] = None, values: Optional[np.ndarray] = None,
+               cmap: Optional[str] = None) -> Collection:
     """Cells coloured by values; lone points, where there are no cells, so or in given colours."""
     if contact.cells is None:
         result = axes.scatter(contact.points[:, 0], contact.points[:, 1], s=22, marker="s",
@@ -37,14 +47,14 @@ def draw_patch(axes, contact, colours=None, values=None, cmap=None):
     return result
 
 
-def layout_of(contact):
+def layout_of(contact: ContactMap) -> tuple[float, float]:
     """Figure size for two columns of states and one of sums over the period."""
     width, height = np.maximum(contact.high - contact.low, 1e-3)
     ratio = max(height / width, 0.18)  # at most 1: the long side lies flat
     return 3 * 2.9 + 1.2, 2 * (2.9 * ratio + 0.6) + 0.8
 
 
-def draw_states(axes, contact, angle):
+def draw_states(axes: Axes, contact: ContactMap, angle: float) -> list[Line2D]:
     """The patch at the phase nearest to an angle [deg]. Entries of the legend for what lies over the cells."""
     phase = contact.phase_near(angle)
     states = contact.state[:, phase].astype(int)
@@ -61,7 +71,7 @@ def draw_states(axes, contact, angle):
     return ([instant_handle()] if has_lines else []) + ([ARROW] if has_arrows else [])
 
 
-def draw_arrows(axes, contact, phase):
+def draw_arrows(axes: Axes, contact: ContactMap, phase: int) -> bool:
     """Slip in two directions: where to, and how fast against the fastest of the period. Whether there is any."""
     arrows = arrows_at(contact.points, contact.slider, contact.state, phase)
     if len(arrows):
@@ -70,7 +80,7 @@ def draw_arrows(axes, contact, phase):
     return len(arrows) > 0
 
 
-def draw_sum(figure, axes, contact, values, name):
+def draw_sum(figure: Figure, axes: Axes, contact: ContactMap, values: np.ndarray, name: str) -> set[str]:
     """A sum over the period on the patch, from zero. Names of the guards drawn."""
     drawn = draw_patch(axes, contact, values=values, cmap="cividis")
     if not values.max() > 0:  # a scale of nothing would invent one
@@ -84,7 +94,7 @@ def draw_sum(figure, axes, contact, values, name):
     return guards
 
 
-def patch_figure(contact):
+def patch_figure(contact: ContactMap) -> Figure:
     """States at four phases and what the period sums up to, over the plane of the patch."""
     figure, grid = subplots(2, 3, layout_of(contact), sharex=True, sharey=True)
     over = {handle.get_label(): handle for axes, angle in zip(grid[:, :2].flat, (0, 90, 180, 270))
@@ -103,7 +113,7 @@ def patch_figure(contact):
     return figure
 
 
-def row_figure(contact):
+def row_figure(contact: ContactMap) -> Figure:
     """Points in a row have no area to draw: their states over the period, one line per point."""
     n = len(contact.points)
     figure, (states, energy) = subplots(1, 2, (7.2, min(1.6 + 0.22 * n, 7.0)), sharey=True,

@@ -1,16 +1,23 @@
 """Peak against preload, and against any other number of the scene a search has varied."""
 
+from __future__ import annotations
+
 import os
+from typing import TYPE_CHECKING, Any, Mapping, Optional, Sequence
 
 import numpy as np
 
 from microslip.files import trace_in
 from microslip.plots.numbers import is_number, with_half_width
-from microslip.plots.run_folder import load_of
+from microslip.plots.run_folder import Run, load_of
 from microslip.plots.style import ACCENT, FREE, STUCK, figure_title, light_grid, log_scale, subplots
 
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
-def peaks_of(run):
+
+def peaks_of(run: Run) -> tuple[list[tuple[float, float, float]], dict[str, tuple[float, float]]]:
     """(preload, frequency, amplitude) of the curves that have a solved peak, and the limits by name."""
     family, limits = [], {}
     for curve, _ in run.curves:
@@ -24,7 +31,7 @@ def peaks_of(run):
     return sorted(family), limits
 
 
-def draw_peaks(column, run, family, trace, sign):
+def draw_peaks(column: Sequence[Axes], run: Run, family: Sequence[tuple[float, float, float]], trace: np.ndarray, sign: int) -> None:
     """One pair of axes: amplitude above, frequency below; sign −1 draws the gaps on a mirrored axis."""
     chosen = [peak for peak in family if sign * peak[0] > 0]
     for axes, index, scale in ((column[0], 2, run.size), (column[1], 1, 1.0)):
@@ -40,7 +47,7 @@ def draw_peaks(column, run, family, trace, sign):
         column[0].invert_xaxis()  # shared with the axes below
 
 
-def draw_limits(column, run, limits, named):
+def draw_limits(column: Sequence[Axes], run: Run, limits: Mapping[str, tuple[float, float]], named: bool) -> None:
     for name, (frequency, amplitude) in limits.items():
         for axes, value in ((column[0], amplitude / run.size), (column[1], frequency)):
             axes.axhline(value, color=FREE if name == "free" else STUCK, linewidth=0.9, zorder=1,
@@ -52,16 +59,16 @@ def draw_limits(column, run, limits, named):
                               textcoords="offset points", fontsize=8)
 
 
-def is_upper(name, limits, index):
+def is_upper(name: str, limits: Mapping[str, tuple[float, float]], index: int) -> bool:
     """Whether this limit's label goes above its line: the lines may lie close together."""
     return all(limits[name][index] >= pair[index] for other, pair in limits.items() if other != name)
 
 
-def star(axes, value, at):
+def star(axes: Axes, value: float, at: float) -> None:
     axes.scatter(value, at, marker="*", s=90, color=ACCENT, edgecolor="white", linewidth=0.6, zorder=5)
 
 
-def mark_optimum(column, run, optimum, what, unit=""):
+def mark_optimum(column: Sequence[Axes], run: Run, optimum: Mapping[str, Any], what: str, unit: str = "") -> None:
     """The best value on both axes, with its numbers as the title."""
     value, amplitude = optimum["value"], optimum["amplitude_m"] / run.size
     star(column[0], value, amplitude)
@@ -74,14 +81,14 @@ def mark_optimum(column, run, optimum, what, unit=""):
                         loc="right", color=ACCENT, fontsize=8)
 
 
-def finish(figure, run, column):
+def finish(figure: Figure, run: Run, column: Sequence[Axes]) -> Figure:
     column[0].set_ylabel(f"peak amplitude [{run.unit}]")
     column[1].set_ylabel("peak frequency [Hz]")
     figure_title(figure, run.title)
     return figure
 
 
-def peaks_figure(run):
+def peaks_figure(run: Run) -> Optional[Figure]:
     """Peak against preload, gaps on an axis of their own; None where there are less than two peaks."""
     family, limits = peaks_of(run)
     trace = trace_in(os.path.join(run.folder, "peak_against_preload.csv"), "preload_N")
@@ -108,7 +115,7 @@ def peaks_figure(run):
     return finish(figure, run, grid[:, 0])
 
 
-def parameter_figure(run):
+def parameter_figure(run: Run) -> Optional[Figure]:
     """Peak against a number of the scene that is not the preload; None where no search has varied one."""
     trace = trace_in(os.path.join(run.folder, "peak_against_parameter.csv"), "value")
     optimum = run.summary.get("optimum")

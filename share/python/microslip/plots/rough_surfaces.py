@@ -1,23 +1,29 @@
 """Figures 2 and 3 of paper B: rough surfaces in contact, and their friction loops."""
 
+from __future__ import annotations
+
 import os
+from typing import TYPE_CHECKING
 
 from microslip.files import read_table
 from microslip.plots.output import save
 from microslip.plots.style import light_grid, subplots
 
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
 CUBIC = {"color": "#12355b", "label": "cubic law (1)"}
 GAUSSIAN = {"color": "#f4a259", "label": "Gaussian heights", "linestyle": (0, (4, 2))}
 
 
-def label(axes, x_label, y_label, title):
+def label(axes: Axes, x_label: str, y_label: str, title: str) -> None:
     axes.set_xlabel(x_label)
     axes.set_ylabel(y_label)
     axes.set_title(title, loc="left")
     light_grid(axes)
 
 
-def figure_2(folder):
+def figure_2(folder: str) -> None:
     """Load over approach, and tangential stiffness over load."""
     table = read_table(os.path.join(folder, "figure_2.csv"))
     figure, (load, stiffness) = subplots(1, 2, (7.2, 3.2))
@@ -30,7 +36,7 @@ def figure_2(folder):
     save(figure, folder, "figure_2")
 
 
-def figure_3(folder):
+def figure_3(folder: str) -> None:
     """Friction over relative motion: stick, a constant load, and rough surfaces whose load varies."""
     table = read_table(os.path.join(folder, "figure_3.csv"))
     figure, grid = subplots(1, 3, (7.2, 2.8), sharey=True)
@@ -45,7 +51,7 @@ def figure_3(folder):
     save(figure, folder, "figure_3")
 
 
-def plot_figures(folder):
+def plot_figures(folder: str) -> None:
     """Both, beside their tables."""
     figure_2(folder)
     figure_3(folder)

@@ -1,7 +1,10 @@
 """All plots of a run folder."""
 
+from __future__ import annotations
+
 import os
 import sys
+from typing import TYPE_CHECKING, Optional
 
 from microslip.files import shown
 from microslip.plots.figures import OF_A_RUN
@@ -9,14 +12,17 @@ from microslip.plots.maps import map_tasks, maps_of
 from microslip.plots.output import run_shared, save
 from microslip.plots.run_folder import Run
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
-def save_if_any(figure, folder, name):
+
+def save_if_any(figure: Optional[Figure], folder: str, name: str) -> None:
     """Not every run has every figure."""
     if figure is not None:
         save(figure, folder, name)
 
 
-def missing_files(run):
+def missing_files(run: Run) -> list[str]:
     """Files the summary names and the folder lacks."""
     maps = [path for path, _ in maps_of(run)]
     names = maps + [path[:-3] + ".pvd" for path in maps]
@@ -26,13 +32,13 @@ def missing_files(run):
     return [path for path in names if not os.path.exists(path)]
 
 
-def plots_folder(run, folder=None):
+def plots_folder(run: Run, folder: Optional[str] = None) -> str:
     folder = folder or os.path.join(run.folder, "plots")
     os.makedirs(folder, exist_ok=True)
     return folder
 
 
-def plot_run(run_folder, folder=None):
+def plot_run(run_folder: str, folder: Optional[str] = None) -> bool:
     """Curves, peaks and maps into a folder, RUN_FOLDER/plots by default. Whether all was there and is drawn; if not,
     stderr says what."""
     run = Run(run_folder)
@@ -46,7 +52,7 @@ def plot_run(run_folder, folder=None):
     return drawn and not missing
 
 
-def plot_maps(run_folder):
+def plot_maps(run_folder: str) -> None:
     """The maps alone."""
     run = Run(run_folder)
     for task in map_tasks(run, plots_folder(run)):

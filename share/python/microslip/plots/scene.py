@@ -1,6 +1,9 @@
 """A mesh and what a scene uses of it, drawn from two sides: no depth buffer, faces are painted from the back."""
 
+from __future__ import annotations
+
 import json
+from typing import TYPE_CHECKING, Any, Iterator, Mapping, Sequence
 
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
@@ -11,6 +14,9 @@ from matplotlib.patheffects import withStroke
 
 from microslip.plots.output import save_as
 from microslip.plots.style import ACCENT, figure_title, legend_below, subplots
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 FACE_COLOURS = {"clamped": "#3a6ea5", "contact": "#f4a259"}
 TEXT_COLOURS = {"clamped": "#12355b", "contact": "#8a4b08"}
@@ -24,7 +30,7 @@ LIGHT = np.array([0.3, 0.5, 0.81])  # in the axes of the view: right, up, to the
 class Skin:
     """Outer faces of the mesh with their normals, and the edges where they turn."""
 
-    def __init__(self, scene):
+    def __init__(self, scene: Mapping[str, Any]) -> None:
         self.nodes = np.array(scene["nodes"], dtype=float)
         faces = np.array(scene["faces"], dtype=int)
         self.faces = np.where(faces < 0, faces[:, :1], faces)  # a triangle ends where it begins
@@ -37,13 +43,13 @@ class Skin:
         self.centres = corners.mean(axis=1)
         self.group = np.full(len(faces), "body", dtype=object)
 
-    def mark(self, place):
+    def mark(self, place: Mapping[str, Any]) -> None:
         """Faces whose corners all belong to a place are painted as such."""
         inside = np.zeros(len(self.nodes), dtype=bool)
         inside[place["nodes"]] = True
         self.group[inside[self.faces].all(axis=1)] = place["role"]
 
-    def creases(self):
+    def creases(self) -> Iterator[tuple[tuple[int, int], list[int]]]:
         """Node pairs where two faces meet at an angle, with a face each of them."""
         owners = {}
         for number, face in enumerate(self.faces.tolist()):
@@ -56,7 +62,7 @@ class Skin:
                 yield edge, pair
 
 
-def view_axes(up, eye):
+def view_axes(up: np.ndarray, eye: np.ndarray) -> np.ndarray:
     """Rows: to the right, up, towards the eye."""
     eye = eye / np.linalg.norm(eye)
     right = np.cross(up, eye)
@@ -64,7 +70,7 @@ def view_axes(up, eye):
     return np.array([right, np.cross(eye, right), eye])
 
 
-def two_views(skin, places):
+def two_views(skin: Skin, places: Sequence[Mapping[str, Any]]) -> list[np.ndarray]:
     """The first looks at the contact from above, the second from behind and below; the longest side stands upright."""
     up = np.zeros(3)
     longest = int(np.argmax(np.ptp(skin.nodes, axis=0)))
@@ -78,7 +84,7 @@ def two_views(skin, places):
     return [view_axes(up, eye), view_axes(up, -eye)]
 
 
-def draw_skin(axes, skin, view):
+def draw_skin(axes: Axes, skin: Skin, view: np.ndarray) -> np.ndarray:
     """Faces towards the eye, the farthest first, shaded by their angle to the light."""
     towards = skin.normals @ view[2] > 0.0
     order = np.flatnonzero(towards)[np.argsort((skin.centres @ view[2])[towards])]
@@ -93,7 +99,7 @@ def draw_skin(axes, skin, view):
     return flat
 
 
-def arrow(axes, start, step, colour, text=""):
+def arrow(axes: Axes, start: np.ndarray, step: np.ndarray, colour: str, text: str = "") -> None:
     """From a point along a projected vector; a vector towards the eye is a ring."""
     axes.annotate("", xy=start + step, xytext=start, zorder=6, annotation_clip=False,
                   arrowprops={"arrowstyle": "-|>", "color": colour, "linewidth": 1.6, "shrinkA": 0,
@@ -103,14 +109,14 @@ def arrow(axes, start, step, colour, text=""):
                       path_effects=HALO)
 
 
-def draw_contact(axes, place, view, length):
+def draw_contact(axes: Axes, place: Mapping[str, Any], view: np.ndarray, length: float) -> None:
     """Axes p, q, r from the centroid."""
     start = view[:2] @ place["centre"]
     for name, axis in zip("pqr", place["frame"]):
         arrow(axes, start, length * view[:2] @ axis, TEXT_COLOURS["contact"], name)
 
 
-def draw_marks(axes, places, view, length, extent):
+def draw_marks(axes: Axes, places: Sequence[Mapping[str, Any]], view: np.ndarray, length: float, extent: np.ndarray) -> None:
     """Forces and output with arrows; names of places at one point stand below each other, outside the body."""
     taken = []
     for place in places:
@@ -131,14 +137,14 @@ def draw_marks(axes, places, view, length, extent):
                       arrowprops={"arrowstyle": "-", "color": colour, "linewidth": 0.6, "shrinkB": 4})
 
 
-def draw_triad(axes, view, extent, length):
+def draw_triad(axes: Axes, view: np.ndarray, extent: np.ndarray, length: float) -> None:
     """The axes x, y, z of the mesh in the corner."""
     corner = np.array([extent[0, 0] - 0.3 * extent[0].ptp(), extent[1, 0] - 0.12 * extent[1].ptp()])
     for name, axis in zip("xyz", np.eye(3)):
         arrow(axes, corner, 0.6 * length * view[:2] @ axis, "0.35", name)
 
 
-def plot_scene(data, picture):
+def plot_scene(data: str, picture: str) -> None:
     with open(data, encoding="utf-8") as file:
         scene = json.load(file)
     skin, places = Skin(scene), scene["places"]

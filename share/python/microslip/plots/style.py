@@ -1,7 +1,11 @@
 """How every figure looks: sizes, colours, scales, legends."""
 
-import math
+from __future__ import annotations
 
+import math
+from typing import TYPE_CHECKING, Any, Iterable, Sequence, Tuple, Union
+
+import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
@@ -9,6 +13,12 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from microslip.plots.numbers import plain
 from microslip.states import STATES
+
+if TYPE_CHECKING:
+    from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
+    from matplotlib.container import Container
 
 STYLE = {
     "svg.hashsalt": "microslip",
@@ -27,25 +37,26 @@ STYLE = {
     "lines.solid_capstyle": "round",
     "legend.frameon": False,
 }
+Colour = Union[str, Tuple[float, ...], np.ndarray]  # a name, or red, green, blue and opacity
 FREE, STUCK = "0.1", "0.55"
 ACCENT = "#c1121f"
 STATE_COLOURS = [colour for _, _, colour in STATES]
 
 
-def subplots(n_rows, n_columns, figsize, **grid):
+def subplots(n_rows: int, n_columns: int, figsize: tuple[float, float], **grid: Any) -> tuple[Figure, Any]:
     """A figure of its own, which no display and no other figure knows of, and its axes."""
     figure = Figure(figsize=figsize, layout="constrained")
     FigureCanvasAgg(figure)
     return figure, figure.subplots(n_rows, n_columns, **grid)
 
 
-def light_grid(axes, colour="0.92"):
+def light_grid(axes: Axes, colour: str = "0.92") -> None:
     """Lines at the major ticks, below everything."""
     axes.grid(True, which="major", color=colour, linewidth=0.6)
     axes.set_axisbelow(True)
 
 
-def log_scale(axis):
+def log_scale(axis: Axis) -> None:
     """Logarithmic, with plain numbers at 1, 2, 5 where there is room and at powers of ten else."""
     low, high = axis.get_data_interval()
     if not high > 0:
@@ -57,12 +68,12 @@ def log_scale(axis):
     axis.set_minor_formatter(NullFormatter())
 
 
-def figure_title(figure, text):
+def figure_title(figure: Figure, text: str) -> None:
     """Above everything, at the left."""
     figure.suptitle(text, x=0.01, ha="left", fontsize=9)
 
 
-def legend_below(figure, handles):
+def legend_below(figure: Figure, handles: Sequence[Union[Artist, Container]]) -> None:
     """One row under everything, two where it would be cut off, in a strip of its own."""
     rows = 1 if len(handles) <= 6 else 2
     inches = 0.28 if rows == 1 else 0.44
@@ -72,7 +83,7 @@ def legend_below(figure, handles):
                   ncols=-(-len(handles) // rows), borderaxespad=0.4, columnspacing=1.6)
 
 
-def state_legend(figure, states, handles=()):
+def state_legend(figure: Figure, states: Iterable[int], handles: Iterable[Artist] = ()) -> None:
     """Colours of the states; of slip in two directions only where there is any."""
     present = {int(state) for state in states} | {0, 1, 2, 3}
     patches = [Patch(facecolor=colour, edgecolor="0.6", linewidth=0.4, label=name)

@@ -1,7 +1,10 @@
 """Error of a peak against the seconds it took: one panel per curve, one line per knob of the discretisation."""
 
+from __future__ import annotations
+
 import csv
 import os
+from typing import TYPE_CHECKING, Any, Mapping, Sequence
 
 from matplotlib.lines import Line2D
 
@@ -9,12 +12,15 @@ from microslip.files import RunError, shown
 from microslip.plots.output import save
 from microslip.plots.style import legend_below, light_grid, subplots
 
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
 COLOURS = {"element_size": "#4c72b0", "modes": "#dd8452", "attachment_degree": "#ccb974", "cells": "#55a868",
            "fit": "#64b5cd", "harmonics": "#c44e52", "second_direction": "#8172b3"}
 SMALLEST = 1e-5  # %, of an error that is drawn
 
 
-def read_knob(path):
+def read_knob(path: str) -> list[dict[str, Any]]:
     """Rows of one table, numbers where there are any."""
     with open(path, newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
@@ -24,7 +30,7 @@ def read_knob(path):
     return rows
 
 
-def draw_knob(axes, rows, colour):
+def draw_knob(axes: Axes, rows: Sequence[Mapping[str, Any]], colour: str) -> None:
     for key, face in (("true_error", colour), ("estimated_error", "white")):
         told = [(row["seconds"], max(100.0 * abs(row[key]), SMALLEST)) for row in rows if row[key] is not None]
         if told:
@@ -32,7 +38,7 @@ def draw_knob(axes, rows, colour):
                       linestyle="-" if key == "true_error" else ":")
 
 
-def plot_work_precision(folder):
+def plot_work_precision(folder: str) -> bool:
     """FOLDER/work_precision.svg and .png. Whether it is drawn."""
     knobs = {name: read_knob(os.path.join(folder, name + ".csv")) for name in COLOURS
              if os.path.exists(os.path.join(folder, name + ".csv"))}
