@@ -1,13 +1,13 @@
 #include "fem/eigen/eigensolver.hpp"
 
 #include <algorithm>
-#include <exception>
 #include <iterator>
 #include <string>
 #include <vector>
 
 #include "fem/elements/symmetric_pairs.hpp"
 #include "fem/petsc/columns.hpp"
+#include "fem/petsc/guarded_solver.hpp"
 #include "fem/petsc_error.hpp"
 
 namespace microslip::fem {
@@ -24,26 +24,6 @@ constexpr Eigen::Index extra_directions = 14;
 constexpr Eigen::Index least_directions = 20;
 constexpr double kept_share = 0.7;
 
-/// A solver, and what it has thrown: an exception must not pass through the library.
-struct GuardedSolver {
-  const LinearSolver& solver;
-  std::exception_ptr failure{};
-};
-
-PetscErrorCode apply_inverse(PC preconditioner, Vec rhs, Vec solution) {
-  void* context = nullptr;
-  const PetscErrorCode code = PCShellGetContext(preconditioner, &context);
-  if (code != 0) return code;
-  auto& guarded = *static_cast<GuardedSolver*>(context);
-  try {
-    guarded.solver.apply(rhs, solution);
-  } catch (...) {
-    guarded.failure = std::current_exception();
-    return PETSC_ERR_LIB;
-  }
-  return 0;
-}
-
 void use_inverse(EPS eps, GuardedSolver& inverse, double shift) {
   ST transform = nullptr;
   KSP solver = nullptr;
@@ -55,9 +35,7 @@ void use_inverse(EPS eps, GuardedSolver& inverse, double shift) {
   check(STGetKSP(transform, &solver));
   check(KSPSetType(solver, KSPPREONLY));
   check(KSPGetPC(solver, &preconditioner));
-  check(PCSetType(preconditioner, PCSHELL));
-  check(PCShellSetContext(preconditioner, &inverse));
-  check(PCShellSetApply(preconditioner, apply_inverse));
+  use_solver(preconditioner, inverse);
 }
 
 void set_deflation(EPS eps, Eigen::MatrixXd& columns) {
@@ -132,7 +110,7 @@ FoundPairs lowest_pairs(const FeSystem& system, const LinearSolver& inverse, dou
   check(EPSMonitorSet(eps.get(), remember_ritz_values, &ritz, nullptr));
   set_deflation(eps.get(), known);
   const PetscErrorCode solved = EPSSolve(eps.get());
-  if (guarded.failure) std::rethrow_exception(guarded.failure);
+  guarded.rethrow();
   check(solved);
   FoundPairs found{collect(eps.get(), system.dofs.n_local_dofs()), {}};
   const Eigen::Index n_converged = found.pairs.values.size();
