@@ -26,8 +26,9 @@ namespace microslip::fem {
 /// What modes and static shapes take [MB], by the SolverKind of fem/modal_analysis.hpp.
 struct MemoryForecast {
   double matrices = 0.0;  ///< K, M, what is made of them, vectors
-  double solver =
-      0.0;  ///< the factorisation, as MUMPS will ask for it (within 30 %); the levels of multigrid
+  /// The factorisation, as MUMPS will ask for it (within 30 %); the levels of multigrid, among them
+  /// the factorisation of the corners of quadratic elements.
+  double solver = 0.0;
   [[nodiscard]] double total() const { return matrices + solver; }
 };
 

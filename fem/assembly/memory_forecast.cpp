@@ -2,14 +2,16 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <iterator>
 #include <limits>
 #include <numeric>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
+
+#include "fem/assembly/corner_interpolation.hpp"
 
 namespace microslip::fem {
 namespace {
@@ -22,9 +24,19 @@ struct BorderNode {
 
 using Border = std::vector<BorderNode>;  // ascending
 
+enum class ElementNodes : std::uint8_t { all, corners };
+
+struct Element {
+  const mesh::ElementBlock* block;
+  Eigen::Index row;
+  Eigen::Index n;  ///< of its nodes, those that count
+
+  [[nodiscard]] auto nodes() const { return block->connectivity.row(row).head(n); }
+};
+
 class Dissection {
  public:
-  explicit Dissection(const mesh::Mesh& mesh)
+  Dissection(const mesh::Mesh& mesh, ElementNodes which)
       : around_(static_cast<std::size_t>(mesh.n_nodes()), 0), mark_(around_.size(), 0) {
     centres_.resize(mesh.n_elements(), 3);
     Eigen::Index element = 0;
@@ -32,8 +44,10 @@ class Dissection {
       for (Eigen::Index e = 0; e < block.connectivity.rows(); ++e, ++element) {
         const auto nodes = block.connectivity.row(e);
         centres_.row(element) = mesh.nodes()(nodes.transpose(), Eigen::all).colwise().mean();
-        elements_.emplace_back(&block, e);
-        for (const auto node : nodes) ++around_[static_cast<std::size_t>(node)];
+        const Eigen::Index n =
+            which == ElementNodes::all ? nodes.size() : mesh::n_corners(block.type);
+        elements_.push_back({&block, e, n});
+        for (const auto node : nodes.head(n)) ++around_[static_cast<std::size_t>(node)];
       }
     }
   }
@@ -79,8 +93,7 @@ class Dissection {
     ++stamp_;
     std::size_t n = 0;
     for (std::size_t i = 0; i < elements.size(); ++i) {
-      const auto& [block, row] = elements_[static_cast<std::size_t>(elements[i])];
-      for (const auto node : block->connectivity.row(row)) {
+      for (const auto node : elements_[static_cast<std::size_t>(elements[i])].nodes()) {
         int& mark = mark_[static_cast<std::size_t>(node)];
         if (i < n_first) {
           mark = 2 * stamp_;
@@ -128,8 +141,7 @@ class Dissection {
   Border border_of_elements(std::span<const Eigen::Index> elements) {
     std::vector<Eigen::Index> nodes;
     for (const Eigen::Index e : elements) {
-      const auto& [block, row] = elements_[static_cast<std::size_t>(e)];
-      const auto own = block->connectivity.row(row);
+      const auto own = elements_[static_cast<std::size_t>(e)].nodes();
       nodes.insert(nodes.end(), own.begin(), own.end());
     }
     std::sort(nodes.begin(), nodes.end());
@@ -171,7 +183,7 @@ class Dissection {
   }
 
   Eigen::MatrixX3d centres_;
-  std::vector<std::pair<const mesh::ElementBlock*, Eigen::Index>> elements_;
+  std::vector<Element> elements_;
   std::vector<int> around_;
   std::vector<int> mark_;  // of the nodes: which cut has met them last, and in which part
   int stamp_ = 0;
@@ -199,21 +211,28 @@ double matrices_mb(const mesh::Mesh& mesh, double per_block) {
          (per_block * n_blocks(mesh) + 24.0 * vectors * static_cast<double>(mesh.n_nodes()));
 }
 
+double factor_mb(double size) {
+  constexpr double asked = 1.4;  // by MUMPS for a nonzero: its stack, its reserve of 30 %
+  return megabytes * 8.0 * asked * size;
+}
+
 }  // namespace
 
-double factor_size(const mesh::Mesh& mesh) { return Dissection(mesh).size(); }
+double factor_size(const mesh::Mesh& mesh) { return Dissection(mesh, ElementNodes::all).size(); }
 
 MemoryForecast direct_memory(const mesh::Mesh& mesh) {
-  constexpr double asked = 1.4;        // by MUMPS for a nonzero: its stack, its reserve of 30 %
   constexpr double per_block = 520.0;  // K, M, K − σM, and the lists MUMPS is given of two of them
-  return {matrices_mb(mesh, per_block), megabytes * 8.0 * asked * factor_size(mesh)};
+  return {matrices_mb(mesh, per_block), factor_mb(factor_size(mesh))};
 }
 
 MemoryForecast iterative_memory(const mesh::Mesh& mesh) {
-  constexpr double per_block = 152.0;  // K and M
-  constexpr double levels = 600.0;     // both halves of K, its coarse levels, how they are joined
+  constexpr double per_block = 152.0;   // K and M
+  constexpr double aggregates = 600.0;  // both halves of K, its coarse levels, how they are joined
+  constexpr double corners = 300.0;     // a copy of K, both halves of it for a while
   const double matrices = matrices_mb(mesh, per_block);
-  return {matrices, megabytes * levels * n_blocks(mesh)};
+  if (!has_edge_nodes(mesh)) return {matrices, megabytes * aggregates * n_blocks(mesh)};
+  return {matrices, megabytes * corners * n_blocks(mesh) +
+                        factor_mb(Dissection(mesh, ElementNodes::corners).size())};
 }
 
 }  // namespace microslip::fem

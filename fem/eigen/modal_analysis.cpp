@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "fem/assembly/corner_interpolation.hpp"
 #include "fem/assembly/given_system.hpp"
 #include "fem/assembly/rotating_system.hpp"
 #include "fem/eigen/attachment.hpp"
@@ -96,6 +97,7 @@ struct Structure::Implementation {
   SolverKind kind = SolverKind::direct;
   Eigen::VectorXd displacement{};  // of the body as it rotates, 3 n_nodes [m]; empty: it does not
   CountedPairs uncounted{};        // of the last search, without its pairs
+  MatHandle from_corners{};        // of quadratic elements, for the iterative way
 
   void prepare();
   void prepare(Mat matrix);
@@ -129,7 +131,7 @@ void Structure::Implementation::prepare(Mat matrix) {
   if (kind == SolverKind::direct) {
     inverse = std::make_unique<Factorisation>(matrix, FactorKind::positive_definite);
   } else {
-    inverse = std::make_unique<ConjugateGradients>(matrix, own_nodes());
+    inverse = std::make_unique<ConjugateGradients>(matrix, own_nodes(), from_corners.get());
   }
   timings.ordering = inverse->ordering_seconds();
   timings.factorisation = inverse->factor_seconds();
@@ -289,6 +291,9 @@ Structure::Structure(const mesh::Mesh& mesh, const Material& material,
   Eigen::MatrixXd rigid = rigid_body_modes(mesh, system);
   self_ = std::make_unique<Implementation>(Implementation{
       mesh.nodes(), std::move(system), std::move(rigid), 0.0, nullptr, {}, rule, solver});
+  if (solver == SolverKind::iterative) {
+    self_->from_corners = corner_interpolation(mesh, self_->system.dofs);
+  }
   self_->timings.assembly =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -304,6 +309,9 @@ Structure::Structure(const mesh::Mesh& mesh, const GivenMatrices& matrices, Solv
                                                           {},
                                                           Tet10Rule::accurate,
                                                           solver});
+  if (solver == SolverKind::iterative) {
+    self_->from_corners = corner_interpolation(mesh, self_->system.dofs);
+  }
   self_->drop_held_rigid_modes();  // springs to ground and single supports are in K alone
 }
 

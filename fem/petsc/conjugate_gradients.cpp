@@ -19,7 +19,7 @@ constexpr double tolerance = 1e-10;
 constexpr PetscInt most_steps = 2000;
 constexpr const char* prefix = "microslip_iterative_";
 
-/// What only the data base of options can say of the levels.
+/// What only the data base of options can say of the levels of GAMG.
 void set_options() {
   constexpr std::array<std::pair<const char*, const char*>, 5> options{{
       {"mg_levels_ksp_type", "chebyshev"},
@@ -74,6 +74,30 @@ void smooth_finest_level(PC levels, Mat matrix) {
   check(PCSetType(preconditioner, PCSOR));
 }
 
+/// Of two levels.
+void smooth_all_nodes(PC levels, Mat matrix) {
+  constexpr PetscInt steps = 2;
+  KSP smoother = nullptr;
+  PC preconditioner = nullptr;
+  const double largest = 1.1 * largest_eigenvalue(matrix, PCJACOBI);
+  check(PCMGGetSmoother(levels, 1, &smoother));
+  check(KSPSetType(smoother, KSPCHEBYSHEV));
+  check(KSPChebyshevSetEigenvalues(smoother, largest, 0.1 * largest));
+  check(KSPSetTolerances(smoother, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT, steps));
+  check(KSPGetPC(smoother, &preconditioner));
+  check(PCSetType(preconditioner, PCJACOBI));
+}
+
+/// Equation (1). The product takes both halves of the matrix; they are given up again.
+MatHandle between_corners(Mat matrix, Mat from_corners) {
+  MatHandle both_halves;
+  MatHandle result;
+  check(MatConvert(matrix, MATAIJ, MAT_INITIAL_MATRIX, both_halves.out()));
+  check(MatPtAP(both_halves.get(), from_corners, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.out()));
+  check(MatProductClear(result.get()));
+  return result;
+}
+
 void set_rigid_motions(Mat matrix, const Eigen::MatrixX3d& nodes) {
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
   RowMajor places = nodes;
@@ -89,19 +113,56 @@ void set_rigid_motions(Mat matrix, const Eigen::MatrixX3d& nodes) {
 
 }  // namespace
 
-ConjugateGradients::ConjugateGradients(Mat matrix, const Eigen::MatrixX3d& nodes) {
+ConjugateGradients::ConjugateGradients(Mat matrix, const Eigen::MatrixX3d& nodes,
+                                       Mat from_corners) {
   const auto start = std::chrono::steady_clock::now();
-  check(MatConvert(matrix, MATAIJ, MAT_INITIAL_MATRIX, matrix_.out()));  // GAMG takes no half
-  check(MatSetBlockSize(matrix_.get(), 3));
-  check(MatSetOption(matrix_.get(), MAT_SPD, PETSC_TRUE));
-  set_rigid_motions(matrix_.get(), nodes);
-  set_options();
   check(KSPCreate(PETSC_COMM_WORLD, solver_.out()));
   check(KSPSetOptionsPrefix(solver_.get(), prefix));
-  check(KSPSetOperators(solver_.get(), matrix_.get(), matrix_.get()));
   check(KSPSetType(solver_.get(), KSPCG));
   check(KSPSetNormType(solver_.get(), KSP_NORM_UNPRECONDITIONED));
   check(KSPSetTolerances(solver_.get(), tolerance, PETSC_DEFAULT, PETSC_DEFAULT, most_steps));
+  if (from_corners != nullptr) {
+    set_two_levels(matrix, from_corners);
+  } else {
+    set_aggregates(matrix, nodes);
+  }
+  setup_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Products take the half of the matrix that is stored: 1.6 times as fast as with both. A load of
+/// the default blade with 31 395 unknowns takes 49 steps.
+void ConjugateGradients::set_two_levels(Mat matrix, Mat from_corners) {
+  check(MatDuplicate(matrix, MAT_COPY_VALUES, matrix_.out()));
+  check(MatSetOption(matrix_.get(), MAT_SPD, PETSC_TRUE));
+  check(KSPSetOperators(solver_.get(), matrix_.get(), matrix_.get()));
+  corner_matrix_ = between_corners(matrix, from_corners);
+  corner_solver_ =
+      std::make_unique<Factorisation>(corner_matrix_.get(), FactorKind::positive_definite);
+  corners_ = std::make_unique<GuardedSolver>(*corner_solver_);
+  PC levels = nullptr;
+  KSP corners = nullptr;
+  PC preconditioner = nullptr;
+  check(KSPGetPC(solver_.get(), &levels));
+  check(PCSetType(levels, PCMG));
+  check(PCMGSetLevels(levels, 2, nullptr));
+  check(PCMGSetGalerkin(levels, PC_MG_GALERKIN_NONE));
+  check(PCMGSetInterpolation(levels, 1, from_corners));
+  check(PCMGGetCoarseSolve(levels, &corners));
+  check(KSPSetOperators(corners, corner_matrix_.get(), corner_matrix_.get()));
+  check(KSPSetType(corners, KSPPREONLY));
+  check(KSPGetPC(corners, &preconditioner));
+  use_solver(preconditioner, *corners_);
+  smooth_all_nodes(levels, matrix_.get());
+  check(KSPSetUp(solver_.get()));
+}
+
+void ConjugateGradients::set_aggregates(Mat matrix, const Eigen::MatrixX3d& nodes) {
+  check(MatConvert(matrix, MATAIJ, MAT_INITIAL_MATRIX, matrix_.out()));  // GAMG takes no half
+  check(MatSetBlockSize(matrix_.get(), 3));
+  check(MatSetOption(matrix_.get(), MAT_SPD, PETSC_TRUE));
+  check(KSPSetOperators(solver_.get(), matrix_.get(), matrix_.get()));
+  set_rigid_motions(matrix_.get(), nodes);
+  set_options();
   PC levels = nullptr;
   check(KSPGetPC(solver_.get(), &levels));
   check(PCSetType(levels, PCGAMG));
@@ -109,11 +170,12 @@ ConjugateGradients::ConjugateGradients(Mat matrix, const Eigen::MatrixX3d& nodes
   check(KSPSetFromOptions(solver_.get()));
   check(KSPSetUp(solver_.get()));
   smooth_finest_level(levels, matrix_.get());
-  setup_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 void ConjugateGradients::apply(Vec rhs, Vec solution) const {
-  check(KSPSolve(solver_.get(), rhs, solution));
+  const PetscErrorCode solved = KSPSolve(solver_.get(), rhs, solution);
+  if (corners_) corners_->rethrow();
+  check(solved);
   KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
   check(KSPGetConvergedReason(solver_.get(), &reason));
   if (reason > 0) return;

@@ -93,6 +93,22 @@ TEST(IterativeSolution, OfStaticLoadsIsThatOfTheDirectWay) {
   EXPECT_LT((u - exact).norm(), 1e-6 * exact.norm());
 }
 
+class Elements : public testing::TestWithParam<ElementType> {};
+
+/// Thin, where corners alone are far too stiff in bending.
+TEST_P(Elements, OfAPlateHaveTheSolutionOfTheDirectWay) {
+  const mesh::Mesh plate =
+      test::box_mesh(GetParam(), {.size = {1.0, 1.0, 0.02}, .cells = {6, 6, 1}, .map = {}});
+  const Eigen::MatrixXd load = Eigen::MatrixXd::Random(3 * plate.n_nodes(), 1);
+  const auto solved = [&](SolverKind kind) {
+    return Structure(plate, titanium, {"x0"}, Tet10Rule::accurate, kind).solve_static(load);
+  };
+  const Eigen::MatrixXd exact = solved(SolverKind::direct);
+  EXPECT_LT((solved(SolverKind::iterative) - exact).norm(), 1e-6 * exact.norm());
+}
+
+INSTANTIATE_TEST_SUITE_P(AllTypes, Elements, testing::ValuesIn(mesh::all_element_types));
+
 TEST(IterativeSolution, OfABodyWithAMechanismIsRefused) {
   // Held along one edge: hinged. The levels are set up for a singular matrix.
   const mesh::Mesh mesh =
