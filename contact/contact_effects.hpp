@@ -10,7 +10,11 @@ struct ContactEffects {
   bool normal_motion = true;      ///< false: the load stays that of rest, whatever the approach
   bool second_direction = false;  ///< friction along r beside p
   bool located = false;           ///< events are located of points that would else be sampled
-  double motion_ratio = 0.0;      ///< motion along r against that along p in the linear limits [-]
+  /// Of points that are sampled: what their force may err by, and how often the instants that
+  /// usually do are doubled, or halved.
+  double force_tolerance = 1e-3;
+  int doublings = 0;
+  double motion_ratio = 0.0;  ///< motion along r against that along p in the linear limits [-]
 
   /// The normal stiffness that is simulated. @param given  [N/m³].
   [[nodiscard]] double normal_stiffness(double given) const { return normal_motion ? given : 0.0; }

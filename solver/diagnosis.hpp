@@ -42,7 +42,8 @@ enum class Remedy : std::uint8_t {
   harmonics_kept,   ///< the choice of harmonics did not settle
   /// There is one, of which the nearest point found is marked, within the step in which it lies.
   peak_unsolved,
-  fold_unsolved  ///< likewise
+  fold_unsolved,  ///< likewise
+  more_instants   ///< the whole curve traced again, twice as many of a period sampled
 };
 
 namespace names {
@@ -81,6 +82,7 @@ inline constexpr std::array remedies{
     Name<Remedy>{Remedy::harmonics_kept, "harmonics-kept"},
     Name<Remedy>{Remedy::peak_unsolved, "peak-unsolved"},
     Name<Remedy>{Remedy::fold_unsolved, "fold-unsolved"},
+    Name<Remedy>{Remedy::more_instants, "more-instants"},
 };
 
 /// Whether a row is at the place of its value.

@@ -1,6 +1,7 @@
 #include "contact/contact_force.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -25,10 +26,9 @@ namespace {
 constexpr double planar_tolerance = 1e-11;
 // Fewer points are solved event by event as fast as that matters, and to rounding.
 constexpr Eigen::Index least_points_in_lanes = 48;
-// Forces err by some 1e-5 in all: with the third power of the step where surfaces are smooth and
-// points move along one line (sampled/kinks.hpp), with the second elsewhere.
+// Of a period, for a force right to 1e-3.
 constexpr int instants_of_plain_lines = 128;
-constexpr int instants_of_others = 512;
+constexpr int instants_of_others = 256;
 
 using PointMethods = std::vector<std::shared_ptr<const PointMethod>>;
 
@@ -51,10 +51,6 @@ Method method_for(std::span<const Patch> patches, const ContactEffects& effects)
   const Method method =
       contact::method_for(n_points(patches), are_plain(patches, effects), effects.n_harmonics);
   return method == Method::lanes && effects.located ? Method::point_methods : method;
-}
-
-int instants_for(std::span<const Patch> patches, const ContactEffects& effects) {
-  return are_plain(patches, effects) ? instants_of_plain_lines : instants_of_others;
 }
 
 SurfaceLaw surface_of(const Patch& patch, const PatchSamples& samples,
@@ -171,6 +167,15 @@ bool is_sampled(std::span<const Patch> patches, const ContactEffects& effects) {
   return method_for(patches, effects) == Method::lanes;
 }
 
+int instants_of(std::span<const Patch> patches, const ContactEffects& effects) {
+  const bool plain = are_plain(patches, effects);
+  const double order = plain ? 3.0 : 2.0;
+  const double closer = std::log2(1e-3 / std::clamp(effects.force_tolerance, 1e-6, 1e-3)) / order;
+  const int doublings = static_cast<int>(std::ceil(closer - 1e-6)) + effects.doublings;
+  const int usual = plain ? instants_of_plain_lines : instants_of_others;
+  return doublings < 0 ? usual >> -doublings : usual << doublings;
+}
+
 ContactForce::ContactForce(const std::vector<Patch>& patches, const ContactEffects& effects,
                            double load, MotionCoordinates coordinates)
     : patches_(patches), effects_(effects), load_(load), coordinates_(std::move(coordinates)) {
@@ -197,7 +202,7 @@ std::unique_ptr<ModalForce> ContactForce::force_of(std::size_t begin, std::size_
       return std::make_unique<PatchForce>(ContactPatch(stack.weights, joined(points)),
                                           std::move(stack.shapes));
     case Method::lanes:
-      return lanes_of(std::move(stack), surfaces(begin, end), instants_for(patches, effects_),
+      return lanes_of(std::move(stack), surfaces(begin, end), instants_of(patches, effects_),
                       coordinates_);
     case Method::point_methods:
       break;

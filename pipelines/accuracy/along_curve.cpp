@@ -9,6 +9,7 @@
 
 #include "contact/contact_force.hpp"
 #include "pipelines/response/response_stage.hpp"
+#include "pipelines/response/sampled_curve.hpp"
 
 namespace microslip::pipelines {
 namespace {

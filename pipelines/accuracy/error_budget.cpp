@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "pipelines/response/response_stage.hpp"
+#include "pipelines/response/sampled_curve.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "solver/point_shift.hpp"
 #include "solver/richer_peak.hpp"

@@ -94,6 +94,15 @@ Ladder of_harmonics(const SceneDescription& scene) {
   return ladder;
 }
 
+Ladder of_instants(const SceneDescription& scene) {
+  Ladder ladder{"instants", "instants", {}};
+  for (const double tolerance : {1e-3, 1e-4, 1e-5}) {
+    ladder.rungs.push_back(rung(scene, fmt::format("to {:g}", tolerance), 0.0,
+                                [&](auto& other) { other.settings.force_tolerance = tolerance; }));
+  }
+  return ladder;
+}
+
 Ladder of_second_direction(const SceneDescription& scene) {
   Ladder ladder{"second_direction", "second_direction", {}};
   using enum Discretisation::Choice;
@@ -120,6 +129,7 @@ std::vector<Ladder> ladders(const SceneDescription& scene) {
     result.push_back(of_second_direction(scene));
   }
   result.push_back(of_harmonics(scene));
+  if (!scene.contacts.empty()) result.push_back(of_instants(scene));
   return result;
 }
 

@@ -13,6 +13,7 @@
 #include "contact/contact_force.hpp"
 #include "contact/dense.hpp"
 #include "pipelines/response/response_stage.hpp"
+#include "pipelines/response/sampled_curve.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/scene_error.hpp"
 #include "solver/richer_peak.hpp"

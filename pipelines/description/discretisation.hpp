@@ -52,6 +52,16 @@ struct Discretisation {
   std::vector<PatchSettings> patches;  ///< one per contact of a meshed scene
   HarmonicSettings harmonics;
   enum class Choice : std::uint8_t { automatic, on, off } second_direction = Choice::automatic;
+  double force_tolerance = 0.0;  ///< of forces sampled in time; 0: as harmonics are chosen
+
+  /// What forces sampled in time may err by, of theirs: where harmonics are chosen a tenth of what
+  /// they may leave out.
+  [[nodiscard]] double tolerance_of_forces() const {
+    constexpr double usual = 1e-3;
+    constexpr double share = 0.1;
+    if (force_tolerance > 0.0) return force_tolerance;
+    return harmonics.chosen() ? std::min(usual, share * harmonics.tolerance) : usual;
+  }
 };
 
 /// Contact points of a picture.

@@ -41,6 +41,7 @@ ContactEffects contact_effects(const ReducedModel& model, const SceneDescription
   if (scene.response && scene.response->method == ResponseDescription::Method::time) {
     effects.n_harmonics = std::max(effects.n_harmonics, least_harmonics_of_time);
   }
+  effects.force_tolerance = scene.settings.tolerance_of_forces();
   const std::vector<EffectRecord> chosen = effects_of(scene, &model);
   require_obeyed(chosen);
   const EffectRecord& along_r = effect_in(chosen, "second_direction");

@@ -104,7 +104,7 @@ double point_seconds(const CurveEffects& effects, const Size& size) {
     case contact::Method::closed_form:
       return 1.0 * microsecond;
     case contact::Method::lanes:
-      return (plain ? 7.0 + 0.9 * more : both * (rough ? 32.0 : 25.0) + 2.0 * more) * microsecond;
+      return (plain ? 7.0 + 0.9 * more : both * (rough ? 21.0 : 16.0) + 1.6 * more) * microsecond;
     case contact::Method::point_methods:
       break;
   }

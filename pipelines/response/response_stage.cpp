@@ -20,6 +20,7 @@
 #include "pipelines/model/slow_attachment.hpp"
 #include "pipelines/model/tilted_area.hpp"
 #include "pipelines/response/resonating_shapes.hpp"
+#include "pipelines/response/sampled_curve.hpp"
 #include "pipelines/response/time_response.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/interrupt.hpp"
@@ -232,7 +233,6 @@ solver::ContinuationOptions continuation_options(const SceneDescription& scene,
   return options;
 }
 
-/// With the contact in time where that judges stability (solver/stability/stability.hpp).
 solver::Scene balanced_scene(const ReducedModel& model, double load,
                              const solver::ContinuationOptions& options) {
   solver::Scene problem = solver_scene(model, load);
@@ -279,13 +279,6 @@ void trace_about_peak(const ReducedModel& model, double load, solver::Continuati
 
 }  // namespace
 
-ReducedModel model_of(ReducedModel model, const solver::ResponseCurve& curve) {
-  model.effects.located = std::ranges::any_of(curve.log, [](const solver::SolverEvent& event) {
-    return event.remedy == solver::Remedy::located_events;
-  });
-  return model;
-}
-
 void check_harmonics(ReducedModel model, const SceneDescription& scene, double load,
                      CurveResult& result) {
   const solver::ResponseCurve& curve = result.curve;
@@ -309,83 +302,16 @@ void check_harmonics(ReducedModel model, const SceneDescription& scene, double l
 
 namespace {
 
-/// Sticks, for about as long as from one instant to the next, as they are 128 to a period.
-bool sticks_shortly(const solver::ResponsePoint& point) {
-  constexpr double share = 0.03;
-  return point.report.stick_share > 0.0 && point.report.stick_share < share;
-}
-
-/// Points that stick shortly and take so many evaluations, one after the other,
-/// that noise must be what cuts their steps.
-class DearPoints {
- public:
-  /// @return whether it has come to that.
-  bool add(const solver::ResponsePoint& point) {
-    constexpr std::size_t in_a_row = 40;
-    constexpr long usual = 30;  // six, or twelve among many folds
-    evaluations_.push_back(sticks_shortly(point) ? point.contact_evaluations : 0);
-    sum_ += evaluations_.back();
-    if (evaluations_.size() <= in_a_row) return false;
-    sum_ -= evaluations_[evaluations_.size() - 1 - in_a_row];
-    met_ = met_ || sum_ > usual * static_cast<long>(in_a_row);
-    return met_;
-  }
-  [[nodiscard]] bool met() const { return met_; }
-
- private:
-  std::vector<long> evaluations_;
-  long sum_ = 0;  // of the last
-  bool met_ = false;
-};
-
-/// A branch of such points that did not reach its end, or whose peaks and folds cannot be found.
-bool walked_on_noise(const solver::ResponseCurve& curve) {
-  using solver::Diagnosis;
-  if (std::ranges::none_of(curve.points, sticks_shortly)) return false;
-  constexpr std::array ends{Diagnosis::out_of_range, Diagnosis::unbounded, Diagnosis::interrupted};
-  if (!curve.complete) return std::ranges::find(ends, curve.diagnosis) == ends.end();
-  constexpr auto most_unsolved = 2;
-  return std::ranges::count_if(curve.log, [](const solver::SolverEvent& event) {
-           return event.remedy == solver::Remedy::peak_unsolved ||
-                  event.remedy == solver::Remedy::fold_unsolved;
-         }) > most_unsolved;
-}
-
-/// The curve under a load, or the point at the only frequency. Forces sampled in time are not
-/// smooth where points stick for less than the time between two instants: a branch that a few such
-/// points lead folds where no fold is, and goes on in ever shorter steps.
-/// It is traced again with every event located.
 solver::ResponseCurve balanced_curve(const ReducedModel& model, const SceneDescription& scene,
                                      double load, const solver::ContinuationOptions& options,
                                      const solver::PointObserver& observe) {
-  if (options.frequency_begin == options.frequency_end) {
-    return solver::solve_at_frequency(balanced_scene(model, load, options), options.frequency_begin,
-                                      options);
+  if (contact::is_sampled(model.patches, model.effects)) {
+    return sampled_curve(model, scene, load, options, observe);
   }
-  const bool sampled = contact::is_sampled(model.patches, model.effects);
-  DearPoints dear;
-  solver::ResponseCurve curve = solver::trace_response(
-      balanced_scene(model, load, options), options,
-      [&](const auto& point) { return !(sampled && dear.add(point)) && observe(point); });
-  if (!sampled || !(dear.met() || walked_on_noise(curve))) return curve;
-  ReducedModel located = model;
-  located.effects.located = true;
-  solver::ContinuationOptions exact = continuation_options(scene, located);
-  exact.search_starts = options.search_starts;
-  exact.near_begin = options.near_begin;
-  exact.stop = options.stop;
-  solver::ResponseCurve again = solver::trace_response(
-      balanced_scene(located, load, exact), exact, [&](const auto&) { return !options.stop(); });
-  if (!again.complete && (curve.complete || again.points.size() < curve.points.size())) {
-    return curve;
-  }
-  again.log.insert(again.log.begin(),
-                   {curve.points.empty() ? options.frequency_begin : curve.points.back().frequency,
-                    solver::Remedy::located_events});
-  again.contact_evaluations += curve.contact_evaluations;
-  again.iterations += curve.iterations;
-  again.seconds += curve.seconds;
-  return again;
+  const solver::Scene problem = balanced_scene(model, load, options);
+  return options.frequency_begin == options.frequency_end
+             ? solver::solve_at_frequency(problem, options.frequency_begin, options)
+             : solver::trace_response(problem, options, observe);
 }
 
 /// That its time was over is why it has no end, where nothing else has stopped it.

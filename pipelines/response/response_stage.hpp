@@ -9,6 +9,7 @@
 #include "pipelines/description/curve_request.hpp"
 #include "pipelines/model/reduced_model.hpp"
 #include "pipelines/response/run_results.hpp"
+#include "solver/continuation.hpp"
 #include "solver/scene.hpp"
 
 namespace microslip::pipelines {
@@ -16,6 +17,10 @@ namespace microslip::pipelines {
 /// A model under a load (point_parameters.hpp) as the solver takes it.
 /// Modes and excitation of the model are copied.
 [[nodiscard]] solver::Scene solver_scene(const ReducedModel& model, double load);
+
+/// With the contact in time where that judges stability (solver/stability/stability.hpp).
+[[nodiscard]] solver::Scene balanced_scene(const ReducedModel& model, double load,
+                                           const solver::ContinuationOptions& options);
 
 /// For the free and the stuck limit, which know no preload: no moment tilts, rough surfaces are in
 /// full contact.
@@ -79,9 +84,6 @@ void check_harmonics(ReducedModel model, const SceneDescription& scene, double l
 [[nodiscard]] std::vector<NamedMap> curve_maps(const ReducedModel& model,
                                                const SceneDescription& scene,
                                                const CurveResult& result);
-
-/// The model a curve was solved with: events located where it was traced again with them.
-[[nodiscard]] ReducedModel model_of(ReducedModel model, const solver::ResponseCurve& curve);
 
 /// The highest solved peak; without one the largest point. nullptr: no points.
 [[nodiscard]] const solver::ResponsePoint* highest_peak(const solver::ResponseCurve& curve);
