@@ -288,7 +288,7 @@ class Campaign:
 def main(program, work, n, seed):
     began = time.monotonic()
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    campaign = Campaign(program, work, seed)
+    campaign = Campaign(os.path.abspath(program), work, seed)
     for number in range(n):
         campaign.case(number)
     print(f"scenes {seed}.0 to {seed}.{n - 1} in {time.monotonic() - began:.0f} s:")
