@@ -19,6 +19,7 @@ import random
 import re
 import resource
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -228,17 +229,17 @@ class Campaign:
         with open(os.path.join(folder, "words"), "w+", encoding="utf-8") as words:
             process = subprocess.Popen([self.program, "run", "scene.toml", "-q", "-j", "1", "-o", "run", "--without", "plots"],
                                        cwd=folder, stdout=subprocess.DEVNULL, stderr=words, env=without_plots(),
-                                       preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (CAP, CAP)))
+                                       preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (CAP, CAP + 5)))
             _, status, used = os.wait4(process.pid, 0)
             process.returncode = os.waitstatus_to_exitcode(status)
             words.seek(0)
             return process.returncode, words.read(), used.ru_utime + used.ru_stime
 
     def outcome(self, folder, code, words, modal):
-        if code < 0:
-            if self.seconds[-1] < CAP - 1:
-                raise AssertionError(f"ended by signal {-code}")
+        if code == -signal.SIGXCPU:
             return f"over {CAP} s"
+        if code < 0:
+            raise AssertionError(f"ended by signal {-code}")
         if code not in (0, 2, 3):
             raise AssertionError(f"exit code {code}: {words}")
         with open(os.path.join(folder, "run", "summary.json"), encoding="utf-8") as file:
