@@ -18,6 +18,8 @@ constexpr double longest_leap = 0.05;  // over a kink; farther on may be another
 constexpr double shortest_step = 1e-7;
 // Below this a sharp turn is taken for a kink of the branch, not for a step that was too long.
 constexpr double kink_step = 2e-4;
+// Below this what runs the other way right beside the branch is reached only at a tip of it.
+constexpr double tip_step = 1e-5;
 constexpr double kink_correction =
     10.0;                              // of the step: a turn by 84°; beyond, it is another branch
 constexpr double cosine_limit = 0.93;  // 21.5°: beyond, the curve would look angular
@@ -33,6 +35,11 @@ constexpr double exact_share = 1e-13;
 // Of a sampled force, whose Jacobian errs by some 1e-4: the square of this in the amplitude of a
 // peak.
 constexpr double sampled_share = 5e-3;
+
+void reverse(BranchVector& way) {
+  way.x = -way.x;
+  way.parameter = -way.parameter;
+}
 
 }  // namespace
 
@@ -101,15 +108,27 @@ bool BranchWalker::smooth(const Trial& trial) const {
   return same && trial.cosine > cosine_limit && trial.correction < correction_limit;
 }
 
+/// Where slip begins or ends two parts of a branch may meet in a tip so sharp that a step goes from
+/// one to the other all but straight on. There the determinant has the other sign; so it has
+/// beyond a branch point, but not any more for who goes back from there past it.
+bool BranchWalker::beyond_a_tip(const Trial& trial) {
+  const double distance = 3.0 * step_;
+  BranchVector back = rescaled(trial.point.tangent, trial.point.scaling, now_.scaling);
+  reverse(back);
+  const Trial behind = corrected(moved(trial.point.solution.point, back, distance, now_.scaling),
+                                 back, distance, 10);
+  return behind.converged && behind.orientation == orientation_ && behind.cosine > cosine_limit &&
+         behind.correction < correction_limit;
+}
+
 void BranchWalker::accept(Trial trial) {
-  // At a kink where the branch turns back by more than a right angle the determinant tells the way
-  // on.
+  // At a kink where the branch turns back by more than a right angle, or in a tip, the determinant
+  // tells the way on.
   before_orientation_ = orientation_;
   const bool turned =
       trial.orientation != 0.0 && orientation_ != 0.0 && trial.orientation != orientation_;
-  if (turned && trial.cosine < cosine_limit) {
-    trial.point.tangent.x = -trial.point.tangent.x;
-    trial.point.tangent.parameter = -trial.point.tangent.parameter;
+  if (turned && (trial.cosine < cosine_limit || trial.tip)) {
+    reverse(trial.point.tangent);
   } else if (trial.orientation != 0.0) {
     orientation_ = trial.orientation;
   }
@@ -153,12 +172,17 @@ bool BranchWalker::advance() {
   int modest = residual_ ? modest_attempts : 0;
   while (step_ >= shortest_step) {
     Trial trial = attempt(step_, modest-- > 0 ? 0 : 10);
-    const bool kink = step_ < kink_step && trial.correction < kink_correction;
+    // By factors of another place the determinant is not known to so short a step.
+    const bool against =
+        !residual_ && trial.cosine > cosine_limit && trial.orientation * orientation_ < 0.0;
+    const double sharp = against ? tip_step : kink_step;
+    const bool kink = step_ < sharp && trial.correction < kink_correction;
     if (trial.converged && (smooth(trial) || kink)) {
+      trial.tip = against && beyond_a_tip(trial);
       if (failed) remember(Remedy::shorter_step);
       const double distance = step_;
       choose_step(trial);
-      accept(limited(std::move(trial), distance));
+      accept(trial.tip ? std::move(trial) : limited(std::move(trial), distance));
       return true;
     }
     failed = failed || !trial.converged;

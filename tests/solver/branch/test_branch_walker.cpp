@@ -1,0 +1,84 @@
+// A walk along branches of one unknown that are known in closed form.
+
+#include "solver/branch/branch_walker.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+namespace microslip::solver::test_branch_walker {
+namespace {
+
+BalanceEvaluation evaluation(double residual, double by_x, double by_parameter) {
+  BalanceEvaluation at;
+  at.residual = Eigen::VectorXd::Constant(1, residual);
+  at.jacobian = Eigen::MatrixXd::Constant(1, 1, by_x);
+  at.parameter_derivative = Eigen::VectorXd::Constant(1, by_parameter);
+  at.contact_force = Eigen::VectorXd::Zero(1);
+  return at;
+}
+
+BranchWalker walker_from(const ParametricSystem& system, double x, double parameter) {
+  const Scaling unit;
+  NewtonResult start = evaluated_at(system, {Eigen::VectorXd::Constant(1, x), parameter}, unit);
+  EXPECT_LT(start.residual, 1e-14);
+  start.converged = true;
+  return {system, [=](const NewtonResult&) { return unit; }, std::move(start), 1.0};
+}
+
+double x_of(const BranchWalker& walker) { return walker.now().solution.point.x[0]; }
+double parameter_of(const BranchWalker& walker) { return walker.now().solution.point.parameter; }
+
+/// |x| = −εp + c p², p ≤ 0: two parts that meet at the origin under an angle of 2ε.
+struct Tip {
+  double half_angle = 0.0;
+  double bend = 0.0;
+
+  [[nodiscard]] double width(double p) const { return -half_angle * p + bend * p * p; }
+  [[nodiscard]] ParametricSystem system() const {
+    return [*this](const Eigen::VectorXd& x, double p) {
+      return evaluation(std::abs(x[0]) - (p < 0.0 ? width(p) : -half_angle * p),
+                        x[0] < 0.0 ? -1.0 : 1.0, half_angle - (p < 0.0 ? 2.0 * bend * p : 0.0));
+    };
+  }
+};
+
+TEST(BranchWalker, ASharpTipIsPassedToTheOtherPart) {
+  constexpr double start = -0.05;
+  int n_tips = 0;
+  for (const double half_angle : {3e-3, 1e-2, 3e-2, 0.1}) {
+    for (const double bend : {0.0, 1.0, 10.0, 100.0}) {
+      // Where the steps end before the tip is chance.
+      for (const double share : {1.0, 1.03, 1.07, 1.11, 1.17}) {
+        const Tip tip{half_angle, bend};
+        const double from = share * start;
+        BranchWalker walker = walker_from(tip.system(), tip.width(from), from);
+        int n_steps = 0;
+        while (parameter_of(walker) >= 1.2 * start && n_steps < 500 && walker.advance()) ++n_steps;
+        EXPECT_LT(parameter_of(walker), 1.2 * start) << half_angle << ' ' << bend << ' ' << share;
+        EXPECT_LT(x_of(walker), 0.0) << half_angle << ' ' << bend << ' ' << share;
+        ++n_tips;
+      }
+    }
+  }
+  EXPECT_EQ(n_tips, 80);
+}
+
+TEST(BranchWalker, ABranchPointIsNoTip) {
+  // x = 0 and p = x²: the determinant p changes its sign on the way straight on.
+  const ParametricSystem fork = [](const Eigen::VectorXd& x, double p) {
+    return evaluation(x[0] * (p - x[0] * x[0]), p - 3.0 * x[0] * x[0], x[0]);
+  };
+  BranchWalker walker = walker_from(fork, 0.0, -0.3);
+  for (int i = 0; i < 200 && parameter_of(walker) < 0.3; ++i) {
+    const double before = parameter_of(walker);
+    ASSERT_TRUE(walker.advance());
+    EXPECT_GT(parameter_of(walker), before);
+    EXPECT_EQ(x_of(walker), 0.0);
+  }
+  EXPECT_GE(parameter_of(walker), 0.3);
+}
+
+}  // namespace
+}  // namespace microslip::solver::test_branch_walker
