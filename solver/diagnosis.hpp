@@ -19,7 +19,9 @@ enum class Diagnosis : std::uint8_t {
   event_chatter,  ///< the same where the Jacobian jumps within the smallest step
   /// Beyond such a point only another branch was found; points before and after are valid.
   branch_jump,
-  loop,    ///< a branch entered by a jump is closed and does not reach the end
+  /// A branch entered by a jump is closed and does not reach the end, or the walk comes back to a
+  /// fold that it has passed.
+  loop,
   budget,  ///< max_points were not enough, or the time that whoever asked for the curve gives it
   /// The branch turned back out of the range at its begin; in time: beyond all numbers.
   out_of_range,

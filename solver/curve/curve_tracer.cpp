@@ -120,6 +120,25 @@ bool CurveTracer::closed(const BranchWalker& walker, int n_steps) const {
   return distance(now, entry) < distance(now, walker.before().solution.point);
 }
 
+/// A branch passes each of its folds once. Who meets one again goes back along the branch, or round
+/// in circles: a step has led to another part of it, or to a branch that is detached.
+bool CurveTracer::came_back(std::size_t n_before) const {
+  constexpr double same_frequency = 1e-11;  // folds as near to each other as 1e-8 were seen
+  constexpr double same_motion = 1e-6;      // the square root is what a fold leaves open
+  const auto same = [&](const ResponsePoint& a, const ResponsePoint& b) {
+    return std::abs(a.frequency - b.frequency) <= same_frequency * a.frequency &&
+           (a.q.vector() - b.q.vector()).norm() <= same_motion * a.q.vector().norm();
+  };
+  const auto& points = curve_.points;
+  for (std::size_t i = n_before; i < points.size(); ++i) {
+    if (points[i].mark != PointMark::fold) continue;
+    for (std::size_t j = 0; j < n_before; ++j) {
+      if (points[j].mark == PointMark::fold && same(points[i], points[j])) return true;
+    }
+  }
+  return false;
+}
+
 /// Friction takes a work that grows with the amplitude, as that of the excitation does: where it is
 /// the smaller one, nothing bounds an undamped resonance of the free structure,
 /// and the branch climbs for ever.
@@ -149,8 +168,13 @@ bool CurveTracer::walk(BranchWalker& walker) {
       }
       return false;
     }
+    const std::size_t n_before = curve_.points.size();
     if (!add_specials(walker, 1.0) || !add(walker.now().solution)) {
       stop(Diagnosis::interrupted, at_hertz("stopped", frequency));
+      return false;
+    }
+    if (came_back(n_before)) {
+      stop(Diagnosis::loop, at_hertz("the branch comes back to where it was", frequency));
       return false;
     }
     if (endless()) {

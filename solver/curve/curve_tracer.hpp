@@ -46,6 +46,8 @@ class CurveTracer {
   [[nodiscard]] ResponseCurve finished();
   [[nodiscard]] bool endless() const;
   [[nodiscard]] bool closed(const BranchWalker& walker, int n_steps) const;
+  /// @param n_before  points of the curve that were there before the last step.
+  [[nodiscard]] bool came_back(std::size_t n_before) const;
   void note_unsolved(double frequency, PointMark mark);
   /// Peaks and folds up to a share of the last step. False: as for add().
   [[nodiscard]] bool add_specials(BranchWalker& walker, double share_of_segment);

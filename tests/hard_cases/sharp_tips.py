@@ -1,0 +1,56 @@
+#!/usr/bin/env python3
+"""A branch that comes back beside itself: where slip or contact of a point begins or ends, two parts of it meet in a tip of
+a few degrees, and a step goes from one to the other as if straight on.
+
+Hard: walked on in the same direction the second part leads back to the tip, and from there the branch is walked again from
+where it came, for ever or out of the range at its begin.
+From: random scenes, 53.54 (five points with gaps, friction in a plane) and 29.163 (hyperbolic law).
+Right: the first is complete, and no fold is passed twice. The second, where tips are not all that is hard, is complete or
+ends as `loop` at the first fold that it meets again.
+
+usage: sharp_tips.py MICROSLIP WORK_FOLDER
+"""
+import json
+import os
+import shutil
+import subprocess
+import sys
+
+from random_runs import scene_of
+from program_run import without_plots  # found by random_runs
+
+
+def solved(program, folder, scene, *settings):
+    """Exit code and what the summary says of the curve."""
+    os.makedirs(folder)
+    path = os.path.join(folder, "scene.toml")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(scene_of(*scene)[1])
+    run = os.path.join(folder, "run")
+    words = [word for setting in settings for word in ("--set", setting)]
+    code = subprocess.run([program, "run", path, "-q", "-j", "1", "-o", run, "--without", "plots", *words, "--set",
+                           'response.time_budget="60 s"'], timeout=100, env=without_plots(), check=False).returncode
+    with open(os.path.join(run, "summary.json"), encoding="utf-8") as file:
+        curve, = json.load(file)["curves"]
+    return code, curve
+
+
+def passed_twice(folds):
+    return [one for i, one in enumerate(folds) if any(abs(one - other) < 1e-11 * one for other in folds[:i])]
+
+
+def main(program, folder):
+    shutil.rmtree(folder, ignore_errors=True)
+    code, curve = solved(program, os.path.join(folder, "tips"), (53, 54), "response.harmonics=1", "response.frequency=[60.0, 33.0]")
+    print(f"53.54 with one harmonic: {curve['points']} points, {len(curve['folds_Hz'])} folds, {curve['diagnosis'] or 'complete'}")
+    assert code == 0 and curve["complete"], curve["message"]
+    assert len(curve["folds_Hz"]) > 10 and not passed_twice(curve["folds_Hz"]), curve["folds_Hz"]
+
+    code, curve = solved(program, os.path.join(folder, "loop"), (29, 163))
+    print(f"29.163: {curve['points']} points, {len(curve['folds_Hz'])} folds, {curve['diagnosis'] or 'complete'}")
+    assert (code, curve["diagnosis"]) in ((0, ""), (3, "loop")), (code, curve["diagnosis"], curve["message"])
+    assert len(passed_twice(curve["folds_Hz"])) <= 1, curve["folds_Hz"]
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:3])
