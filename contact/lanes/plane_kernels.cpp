@@ -88,9 +88,8 @@ MICROSLIP_INLINE Pair slip(const PlaneArrays& a, std::size_t now, double* turns,
     put_pack(a.entry + now, where(touches, Pack{} + 2.0, begins));
   }
   if constexpr (derivatives) {
-    const auto put = [&](TurnNumber k, const Pack& value) {
-      put_pack(turns + k * block_size, value);
-    };
+    const auto put = [&](TurnNumber k, const Pack& value)
+                         MICROSLIP_INLINE_LAMBDA { put_pack(turns + k * block_size, value); };
     put(by_angle, turn.by_angle);
     put(by_way_p, turn.by_way.p);
     put(by_way_r, turn.by_way.r);
@@ -139,8 +138,10 @@ MICROSLIP_INLINE void one_step(const PlaneArrays& a, std::size_t then, std::size
 template <bool equal, Task task>
 MICROSLIP_INLINE void pass(const PlaneArrays& a, double* state, double* ever) {
   for (std::size_t lane = 0; lane < block_size; lane += pack_size) {
-    const auto number = [&](std::size_t k) { return pack_at(state + k * block_size + lane); };
-    const auto put = [&](std::size_t k, const Pack& value) {
+    const auto number = [&](std::size_t k) MICROSLIP_INLINE_LAMBDA {
+      return pack_at(state + k * block_size + lane);
+    };
+    const auto put = [&](std::size_t k, const Pack& value) MICROSLIP_INLINE_LAMBDA {
       put_pack(state + k * block_size + lane, value);
     };
     Moving point{{number(0), number(1)}, {number(2), number(3)}, number(4)};
@@ -164,8 +165,10 @@ MICROSLIP_INLINE void pass(const PlaneArrays& a, double* state, double* ever) {
 
 MICROSLIP_INLINE void start_all(const PlaneArrays& a, double* state) {
   for (std::size_t lane = 0; lane < block_size; lane += pack_size) {
-    const auto number = [&](std::size_t k) { return pack_at(state + k * block_size + lane); };
-    const auto put = [&](std::size_t k, const Pack& value) {
+    const auto number = [&](std::size_t k) MICROSLIP_INLINE_LAMBDA {
+      return pack_at(state + k * block_size + lane);
+    };
+    const auto put = [&](std::size_t k, const Pack& value) MICROSLIP_INLINE_LAMBDA {
       put_pack(state + k * block_size + lane, value);
     };
     const Pair x = {pack_at(a.u + lane), pack_at(a.w + lane)};

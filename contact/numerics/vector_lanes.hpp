@@ -6,6 +6,9 @@
 #include <vector>
 
 #define MICROSLIP_INLINE [[gnu::always_inline]] inline
+// In front of its body. A lambda that is called has no target: it returns a vector another way than
+// the kernel takes it.
+#define MICROSLIP_INLINE_LAMBDA __attribute__((always_inline))
 
 namespace microslip::contact {
 
