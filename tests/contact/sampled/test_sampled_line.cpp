@@ -89,6 +89,28 @@ TEST_P(LineSurfaces, ConvergeToLocatedEventsInSecondOrder) {
   EXPECT_GT(coarse / fine, GetParam().name == "rising" ? 16.0 : 64.0);
 }
 
+TEST_P(LineSurfaces, SlipWorkConvergesToThatOfLocatedEvents) {
+  const auto cases = motions(40);
+  const auto rms_error = [&](int n) {
+    double sum = 0.0;
+    for (const MotionCase& c : cases) {
+      const SurfaceLaw surface = GetParam().make(c);
+      const double exact =
+          SurfaceLineEvents(surface).history(c.motion, frequency, {}, 1).dissipated_energy;
+      const PatchForce patch = one_point(surface, 2, n);
+      const double slip = tests::report(patch, modal(c.motion, 2), frequency).slip_work;
+      const double scale = friction_scale(c) * c.motion.rows().col(0).norm();
+      sum += std::pow((slip - exact) / scale, 2);
+    }
+    return std::sqrt(sum / static_cast<double>(cases.size()));
+  };
+  const double coarse = rms_error(128);
+  const double fine = rms_error(2048);
+  std::printf("rms error of the slip work at 128, 2048 instants: %.2e %.2e\n", coarse, fine);
+  EXPECT_LT(coarse, 1e-2);
+  EXPECT_GT(coarse / fine, 64.0);  // 256 in second order, 16 in first
+}
+
 /// Of many harmonics, so that phases are as short as ten instants.
 std::vector<MotionCase> rippled_motions(int n, int n_harmonics) {
   Random random(7);
