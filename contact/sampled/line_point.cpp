@@ -16,6 +16,9 @@ void add(std::vector<double>& sum, double factor, const double* terms) {
 /// 0 where nothing rises.
 double ratio_of(double a, double b) { return b == 0.0 ? 0.0 : a / b; }
 
+/// β_0 of kinks.hpp (1).
+double end_moment(double x) { return x - 0.5; }
+
 double sign_of(InstantState state) { return state == InstantState::negative_slip ? -1.0 : 1.0; }
 
 }  // namespace
@@ -242,13 +245,14 @@ void LineDerivatives::add_stuck(const Run& run, const LineColumns& columns) {
 }
 
 /// What mend() takes off, with T a line between the two instants around the kink.
-/// With c = q (w − s) the derivative of (1) of kinks.hpp is, the place moving by
-/// dx = (ds − dw(x))/w',
+/// With c = q (w − s) the derivative of (1) of kinks.hpp is
 ///
-///   q Σ_i dw^(i)(x) Σ_l C(i+l, l) β_{i+l} T^(l)(x) − β_0 T(x) q w' dx
+///   q Σ_i dw^(i)(x) Σ_l C(i+l, l) β_{i+l} T^(l)(x) − q ds Σ_l β_l T^(l)(x)
 ///
+/// from i = 0 on: that of the place is in it, for dβ_m/dx = −β_{m−1}.
 /// @param by_u, by_v  q times dw by u and by v.
-/// @param moves       whether dw(x) moves the place; what ds does is added elsewhere.
+/// @param moves       whether dw(x) moves the place; else i = 1, …. What ds does is added
+///                    elsewhere.
 void LineDerivatives::add_kink(const Kink& kink, double by_u, double by_v, bool moves) {
   const double x = kink.share;
   const KinkMoments moments = kink_moments(x);
@@ -260,7 +264,7 @@ void LineDerivatives::add_kink(const Kink& kink, double by_u, double by_v, bool 
   for (std::size_t k = 0; k < value.size(); ++k) {
     std::array<double, 4> weights{};
     for (std::size_t j = 0; j < weights.size(); ++j) {
-      weights[j] = moves ? (0.5 - x) * value[k] * here[j] : 0.0;
+      weights[j] = moves ? -(end_moment(x) * value[k] + moments[0][0] * slope[k]) * here[j] : 0.0;
       for (std::size_t i = 0; i < orders.size(); ++i) {
         weights[j] -= (value[k] * moments[0][i] + slope[k] * moments[1][i]) * orders[i][j];
       }
@@ -279,13 +283,15 @@ void LineDerivatives::sum_around(std::size_t now, const std::array<double, 4>& w
   for (std::size_t j = 0; j < weights.size(); ++j) add(b_, weights[j], instants_->basis(at[j]));
 }
 
-/// T(x), a line between the two instants, times a factor, to `moved_`.
+/// Σ_l β_l T^(l)(x), T a line between the two instants, times a factor, to `moved_`.
 void LineDerivatives::at_kink(const Kink& kink, double factor) {
   const double* T0 = instants_->basis(before(kink.now));
   const double* T1 = instants_->basis(kink.now);
-  for (std::size_t l = 0; l < n_rows_; ++l) {
-    moved_[l] = factor * ((1.0 - kink.share) * T0[l] + kink.share * T1[l]);
-  }
+  const double x = kink.share;
+  const double by_slope = kink_moments(x)[0][0];
+  const double of_begin = factor * (end_moment(x) * (1.0 - x) - by_slope);
+  const double of_end = factor * (end_moment(x) * x + by_slope);
+  for (std::size_t l = 0; l < n_rows_; ++l) moved_[l] = of_begin * T0[l] + of_end * T1[l];
 }
 
 /// Slip begins or ends; where it begins the part of a slider that the run left goes to `phase_`.
@@ -295,7 +301,7 @@ void LineDerivatives::add_slip(const Kink& kink, const LineColumns& columns) {
   const double width = point_.compliance() * point_.normal_stiffness;
   add_kink(kink, q, -q * kink.side * width, begins);
   if (!begins) return;
-  at_kink(kink, q * (kink.share - 0.5));
+  at_kink(kink, q);
   if (kink.slider == Kink::Slider::run) {
     add(phase_, 1.0, moved_.data());
   } else if (kink.slider == Kink::Slider::landing) {
@@ -326,7 +332,7 @@ void LineDerivatives::add_contact(const Kink& kink) {
   // It sticks from where r vanishes: dx = −dr/r'.
   add_kink(kink, point_.tangential_stiffness, 0.0, false);
   sum_around(kink.now, StepSpline::shares(x));
-  at_kink(kink, (0.5 - x) * ratio_of(kink.friction[0], kink.load[0]));
+  at_kink(kink, -ratio_of(kink.friction[0], kink.load[0]));
   add_outer(moved_, b_, 0.0, k_v);
 }
 
