@@ -114,10 +114,12 @@ struct Spline {
   [[nodiscard]] MICROSLIP_INLINE Pack slope_at(const Pack& x) const {
     return slope + x * (2.0 * square + 3.0 * x * cube);
   }
-  /// Where a slope that is positive at 0 and negative at 1 vanishes.
+  /// Its own top is where the slope vanishes, if this is positive.
+  [[nodiscard]] MICROSLIP_INLINE Pack discriminant() const {
+    return square * square - 3.0 * slope * cube;
+  }
   [[nodiscard]] MICROSLIP_INLINE Pack top() const {
-    const Pack root = square_root(square * square - 3.0 * slope * cube);
-    return slope / (root - square);
+    return slope / (square_root(larger(discriminant(), Pack{})) - square);
   }
 };
 
@@ -156,11 +158,16 @@ struct Top {
 MICROSLIP_INLINE Top top_of(const Spline& w, const Spline& r) {
   const Pack none = Pack{} + 2.0;
   const Pack end = w.slope_at(Pack{} + 1.0);
-  const Pack x = larger(smaller(w.top(), Pack{} + 1.0), Pack{});
+  const Pack top = w.top();
+  const Pack x = larger(smaller(top, Pack{} + 1.0), Pack{});
   const Pack rises = w.slope > Pack{} ? x : none;
   const Pack falls = end < Pack{} ? x : none;
+  // Where it turns twice within the step both ends rise or both fall.
+  const Pack bends = w.discriminant() > Pack{} ? x : none;
+  const Pack inside = top > Pack{} ? (top < Pack{} + 1.0 ? x : none) : none;
+  const Pack twice = w.slope * end > Pack{} ? larger(bends, inside) : none;
   const Pack holds = r.at(x) > Pack{} ? x : none;
-  return {larger(larger(rises, falls), holds), w.at(x)};
+  return {larger(smaller(larger(rises, falls), twice), holds), w.at(x)};
 }
 
 /// u where r rises through zero in the step.

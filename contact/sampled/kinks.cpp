@@ -87,13 +87,15 @@ class Step {
     const double turn = at(columns_.turns, now_);
     double side = side_;
     if (side == 0.0) side = turn == 0.0 ? last : (turn == 1.0 || turn == 3.0 ? 1.0 : -1.0);
-    for (int i = 0; i < 2 && side != 0.0; ++i, side = -side) {
-      if (side_ == side && last == side && !turns(side)) return;
+    // One end may turn twice within the step: then slip begins on its side once more.
+    for (int i = 0; i < 3 && side != 0.0; ++i, side = -side) {
+      const bool turning = i < 2 && turns(side);
+      if (side_ == side && last == side && !turning) return;
       if (side_ != side) {
-        const double height = turns(side) ? turned_to(side) : band_end(side).at(1.0);
+        const double height = turning ? turned_to(side) : band_end(side).at(1.0);
         if (!(side * (height - slider_) > 0.0)) continue;
-        begin_slip(side, turns(side) ? std::max(band_end(side).turn(), place_) : 1.0);
-        if (!turns(side)) return;
+        begin_slip(side, turning ? std::max(band_end(side).turn(side), place_) : 1.0);
+        if (!turning) return;
       }
       end_slip(side);
     }
@@ -115,7 +117,7 @@ class Step {
   void end_slip(double side) {
     const StepSpline w = band_end(side);
     const bool here = turns(side);
-    Kink& kink = add(Kink::Kind::ends_slip, here ? std::max(w.turn(), place_) : place_, side);
+    Kink& kink = add(Kink::Kind::ends_slip, here ? std::max(w.turn(side), place_) : place_, side);
     kink.friction = slopes_at(w, kink.share, point_.tangential_stiffness);
     kink.friction[0] = 0.0;
     slider_ = here ? turned_to(side) : w.at(kink.share);

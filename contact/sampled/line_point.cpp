@@ -129,7 +129,7 @@ LineDerivatives::Anchor LineDerivatives::pushed(std::size_t now, const LineColum
   const double side = by_low ? -1.0 : 1.0;
   const StepSpline end(end_of_band(point_, columns, side, now, n));
   return {.first = (now + n - 2) % n,
-          .share = StepSpline::shares(end.turn()),
+          .share = StepSpline::shares(end.turn(-side)),
           .by_approach = side * width};
 }
 

@@ -42,7 +42,7 @@ class Step {
     if (was_apart) {
       begin = r_.rise_through_zero(rise_of_load());
     } else if (old != direction) {
-      if (old != 0.0 && turns(old)) sum += over(old, 0.0, band_end(old).turn());
+      if (old != 0.0 && turns(old)) sum += over(old, 0.0, band_end(old).turn(old));
       begin = meeting(direction);
     }
     return sum + over(direction, begin, end(direction));
@@ -61,7 +61,7 @@ class Step {
   }
 
   [[nodiscard]] double end(double direction) const {
-    if (to_ == InstantState::turned) return band_end(direction).turn();
+    if (to_ == InstantState::turned) return band_end(direction).turn(direction);
     return to_ == InstantState::separated ? opening() : 1.0;
   }
 

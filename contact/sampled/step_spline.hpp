@@ -41,11 +41,11 @@ struct StepSpline {
     return slope + x * (2.0 * square + 3.0 * x * cube);
   }
   [[nodiscard]] double bend_at(double x) const { return 2.0 * square + 6.0 * x * cube; }
-  /// Where a slope that changes its sign vanishes.
-  [[nodiscard]] double turn() const {
+  /// Where it has its top, of side 1, or its bottom, of −1.
+  [[nodiscard]] double turn(double side) const {
     const double root = std::sqrt(std::max(square * square - 3.0 * slope * cube, 0.0));
-    const double below = std::copysign(root, slope) - square;
-    return below == 0.0 ? 0.0 : std::clamp(slope / below, 0.0, 1.0);
+    const double below = root - side * square;
+    return below == 0.0 ? 0.0 : std::clamp(side * slope / below, 0.0, 1.0);
   }
   /// Where a signal that rises through 0 does so, by Newton's method from the chord.
   [[nodiscard]] double rise_through_zero(double chord) const {

@@ -230,6 +230,25 @@ TEST(SampledLine, StickShorterThanAStepIsSummed) {
   EXPECT_GT(coarse / fine, 100.0);  // 512 in third order, 64 in second
 }
 
+/// That slip nearly throughout and turn up to twice from one of 128 instants to the next.
+std::vector<MotionCase> twice_turning_motions(int n) {
+  std::vector<MotionCase> cases = rippled_motions(n, 15);
+  for (MotionCase& c : cases) {
+    for (int k = 2; k <= 15; ++k) c.motion.rows().middleRows(2 * k - 1, 2).col(0) *= std::sqrt(k);
+    const double size = c.motion.rows().col(0).norm() * c.point.tangential_stiffness;
+    c.motion.rows().col(0) *= 1e5 * friction_limit(c) / size;
+  }
+  return cases;
+}
+
+// The kinks of such a step are as large as the spring could pull, 1e5 times the limit, and cancel
+// each other: one that is missed errs by some of that.
+TEST(SampledLine, TwoTurnsWithinAStepLeaveNoKinkAlone) {
+  const auto [rms, largest] = limit_error(twice_turning_motions(2000), 128);
+  std::printf("error at 128 instants: rms %.2e, largest %.2e\n", rms, largest);
+  EXPECT_LT(largest, 0.1);
+}
+
 // What the slider does is what friction does over the cycle, here that of located events.
 TEST(SampledLine, SlipWorkOfSmoothSurfacesConverges) {
   const auto rms_error = [](const std::vector<MotionCase>& cases, int n) {

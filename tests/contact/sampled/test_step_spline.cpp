@@ -60,14 +60,25 @@ TEST(StepSpline, SharesAreItsDerivatives) {
 TEST(StepSpline, TurnsWhereItsSlopeVanishes) {
   std::mt19937_64 random(3);
   int n_turns = 0;
-  for (int i = 0; i < 2000; ++i) {
+  int n_twice = 0;
+  for (int i = 0; i < 20000; ++i) {
     const StepSpline spline(drawn(random));
-    if (spline.slope_at(0.0) * spline.slope_at(1.0) >= 0.0) continue;
-    ++n_turns;
     const double scale = std::abs(spline.slope) + std::abs(spline.square) + std::abs(spline.cube);
-    EXPECT_NEAR(spline.slope_at(spline.turn()), 0.0, 1e-13 * scale);
+    const bool turns = spline.slope_at(0.0) * spline.slope_at(1.0) < 0.0;
+    for (const double side : {1.0, -1.0}) {
+      if (turns && side * spline.slope < 0.0) continue;
+      const double x = spline.turn(side);
+      if (!turns && (x == 0.0 || x == 1.0 ||
+                     spline.square * spline.square < 3.0 * spline.slope * spline.cube)) {
+        continue;
+      }
+      ++(turns ? n_turns : n_twice);
+      EXPECT_NEAR(spline.slope_at(x), 0.0, 1e-12 * scale);
+      EXPECT_LE(side * spline.bend_at(x), 0.0);
+    }
   }
-  EXPECT_GT(n_turns, 500);
+  EXPECT_GT(n_turns, 5000);
+  EXPECT_GT(n_twice, 50);
 }
 
 // A load as it is in time: smooth over the step. Two steps of Newton's method from the chord.
