@@ -51,9 +51,13 @@ enum class Method { closed_form, lanes, point_methods };
 /// located event by event: where several harmonics meet many points.
 [[nodiscard]] bool is_sampled(std::span<const Patch> patches, const ContactEffects& effects);
 
+/// Of a period.
+inline constexpr int most_instants = 2048;
+
 /// Instants of a period, of forces that are sampled: with the third power of the step where
 /// surfaces are smooth and points move along one line (sampled/kinks.hpp), with the second
-/// elsewhere, they err by less than the tolerance of the effects, but where points slip deeply.
+/// elsewhere, they err by less than the tolerance of the effects, but where points slip deeply or
+/// would need more than most.
 [[nodiscard]] int instants_of(std::span<const Patch> patches, const ContactEffects& effects);
 
 class ContactForce {

@@ -171,9 +171,10 @@ int instants_of(std::span<const Patch> patches, const ContactEffects& effects) {
   const bool plain = are_plain(patches, effects);
   const double order = plain ? 3.0 : 2.0;
   const double closer = std::log2(1e-3 / std::clamp(effects.force_tolerance, 1e-6, 1e-3)) / order;
-  const int doublings = static_cast<int>(std::ceil(closer - 1e-6)) + effects.doublings;
-  const int usual = plain ? instants_of_plain_lines : instants_of_others;
-  return doublings < 0 ? usual >> -doublings : usual << doublings;
+  int asked = plain ? instants_of_plain_lines : instants_of_others;
+  asked = std::min(asked << static_cast<int>(std::ceil(closer - 1e-6)), most_instants);
+  const int doublings = effects.doublings;
+  return doublings < 0 ? asked >> -doublings : std::min(asked << doublings, most_instants);
 }
 
 ContactForce::ContactForce(const std::vector<Patch>& patches, const ContactEffects& effects,

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -18,7 +17,11 @@
 namespace microslip::pipelines {
 namespace {
 
-constexpr int most_instants = 2048;
+using contact::most_instants;
+
+int instants_of(const ReducedModel& model) {
+  return contact::instants_of(model.patches, model.effects);
+}
 
 bool is_along_a_line(const ReducedModel& model) {
   return !model.effects.second_direction &&
@@ -37,10 +40,10 @@ class SampledError {
         excitation_(std::hypot(model.force_sine.norm(), model.force_cosine.norm())) {
     ReducedModel other = model;
     const int least = 8 * (model.effects.n_harmonics + 1);  // contact/sampled/patch_force.hpp
-    const int own = contact::instants_of(model.patches, model.effects);
+    const int own = instants_of(model);
     finer_ = own / 2 < least;
     other.effects.doublings += finer_ ? 1 : -1;
-    while (finer_ && contact::instants_of(other.patches, other.effects) / 2 < least) {
+    while (finer_ && instants_of(other) / 2 < least) {
       ++other.effects.doublings;
     }
     other_force_ = contact_of(other, load).modal_force();
@@ -125,13 +128,23 @@ struct Tracing {
   solver::ResponseCurve curve;
   double error = 0.0;  ///< largest that was met
   bool noisy = false;
+  int instants = 0;
 };
 
-/// @param given_up  the error that ends the tracing.
+/// Whether nothing closer is left to trace a curve with.
+bool is_last(const ReducedModel& model) {
+  if (model.effects.located) return true;
+  return !is_along_a_line(model) && instants_of(model) >= most_instants;
+}
+
+/// Ended where it is to be traced again, with what is closer.
 Tracing traced(const ReducedModel& model, double load, const solver::ContinuationOptions& options,
-               double given_up, const solver::PointObserver& observe) {
+               const solver::PointObserver& observe) {
+  const double tolerance = model.effects.force_tolerance;
   Tracing result;
+  result.instants = instants_of(model);
   DearPoints dear;
+  const bool last = is_last(model);
   const bool sampled = contact::is_sampled(model.patches, model.effects);
   std::unique_ptr<SampledError> error;
   if (sampled) error = std::make_unique<SampledError>(model, load);
@@ -149,7 +162,7 @@ Tracing traced(const ReducedModel& model, double load, const solver::Continuatio
   result.curve = solver::trace_response(
       balanced_scene(model, load, options), options, [&](const solver::ResponsePoint& point) {
         judge(point);
-        return result.error <= given_up && !dear.met() && observe(point);
+        return (last || (result.error <= tolerance && !dear.met())) && observe(point);
       });
   result.noisy = sampled && (dear.met() || walked_on_noise(result.curve));
   return result;
@@ -158,18 +171,17 @@ Tracing traced(const ReducedModel& model, double load, const solver::Continuatio
 /// Gives a model as many doublings as the order of forces asks for; along a line located events,
 /// where they are as cheap as the most instants.
 /// @return what was done.
-std::vector<solver::Remedy> refined(ReducedModel& model, const Tracing& tracing, double tolerance) {
+std::vector<solver::Remedy> refined(ReducedModel& model, double error, bool noisy) {
   const bool line = is_along_a_line(model);
   const double order = line ? 3.0 : 2.0;
-  const double ratio = std::max(tracing.error / tolerance, 1.0);
+  const double ratio = std::max(error / model.effects.force_tolerance, 1.0);
   const int doublings = std::max(1, static_cast<int>(std::ceil(std::log2(ratio) / order)));
-  const auto instants = [&] { return contact::instants_of(model.patches, model.effects); };
-  if (line && (tracing.noisy || instants() << doublings > most_instants)) {
+  if (line && (noisy || instants_of(model) << doublings > most_instants)) {
     model.effects.located = true;
     return {solver::Remedy::located_events};
   }
   std::vector<solver::Remedy> done;
-  for (int i = 0; i < doublings && instants() < most_instants; ++i) {
+  for (int i = 0; i < doublings && instants_of(model) < most_instants; ++i) {
     ++model.effects.doublings;
     done.push_back(solver::Remedy::more_instants);
   }
@@ -177,15 +189,26 @@ std::vector<solver::Remedy> refined(ReducedModel& model, const Tracing& tracing,
 }
 
 /// What was spent on a curve that is given up.
-void add_cost(const solver::ResponseCurve& before, solver::ResponseCurve& curve) {
-  curve.contact_evaluations += before.contact_evaluations;
-  curve.iterations += before.iterations;
-  curve.seconds += before.seconds;
+void add_cost(const solver::ResponseCurve& given_up, solver::ResponseCurve& curve) {
+  curve.contact_evaluations += given_up.contact_evaluations;
+  curve.iterations += given_up.iterations;
+  curve.seconds += given_up.seconds;
 }
 
-void tell_error(double error, solver::ResponseCurve& curve) {
-  curve.message += fmt::format("{}contact forces sampled {} times a period err by some {:.0e}",
-                               curve.message.empty() ? "" : "; ", most_instants, error);
+double last_place(const solver::ResponseCurve& curve, const solver::ContinuationOptions& options) {
+  return curve.points.empty() ? options.frequency_begin : curve.points.back().frequency;
+}
+
+/// Whether less is known by a curve traced with more: no end, where there was one, or cut short.
+bool is_less(const solver::ResponseCurve& next, const solver::ResponseCurve& before, bool stopped) {
+  if (next.complete) return false;
+  return before.complete || (stopped && next.points.size() < before.points.size());
+}
+
+void tell_error(Tracing& tracing) {
+  tracing.curve.message +=
+      fmt::format("{}contact forces sampled {} times a period err by some {:.0e}",
+                  tracing.curve.message.empty() ? "" : "; ", tracing.instants, tracing.error);
 }
 
 }  // namespace
@@ -195,33 +218,31 @@ solver::ResponseCurve sampled_curve(const ReducedModel& given, const SceneDescri
                                     const solver::PointObserver& observe) {
   const double tolerance = given.effects.force_tolerance;
   ReducedModel model = given;
-  const auto is_last = [&] {
-    return model.effects.located ||
-           contact::instants_of(model.patches, model.effects) >= most_instants;
-  };
-  Tracing tracing = traced(model, load, options, tolerance, observe);
+  Tracing kept = traced(model, load, options, observe);
+  double error = kept.error;
+  bool noisy = kept.noisy;
+  double place = last_place(kept.curve, options);
   std::vector<solver::SolverEvent> log;
-  while ((tracing.error > tolerance || tracing.noisy) && !is_last() && !options.stop()) {
-    const solver::ResponseCurve& before = tracing.curve;
-    const double place =
-        before.points.empty() ? options.frequency_begin : before.points.back().frequency;
-    for (const solver::Remedy remedy : refined(model, tracing, tolerance)) {
-      log.push_back({place, remedy});
-    }
+  while ((error > tolerance || noisy) && !is_last(model) && !options.stop()) {
+    for (const solver::Remedy remedy : refined(model, error, noisy)) log.push_back({place, remedy});
     solver::ContinuationOptions again = continuation_options(scene, model);
     again.search_starts = options.search_starts;
     again.near_begin = options.near_begin;
     again.stop = options.stop;
-    const double given_up = is_last() ? std::numeric_limits<double>::infinity() : tolerance;
-    Tracing next =
-        traced(model, load, again, given_up, [&](const auto&) { return !options.stop(); });
-    if (tracing.error <= tolerance && before.complete && !next.curve.complete) break;
-    add_cost(before, next.curve);
+    Tracing next = traced(model, load, again, [&](const auto&) { return !options.stop(); });
+    error = next.error;
+    noisy = next.noisy;
+    place = last_place(next.curve, options);
+    if (is_less(next.curve, kept.curve, options.stop())) {
+      add_cost(next.curve, kept.curve);
+      continue;
+    }
+    add_cost(kept.curve, next.curve);
     next.curve.log.insert(next.curve.log.begin(), log.begin(), log.end());
-    tracing = std::move(next);
+    kept = std::move(next);
   }
-  if (tracing.error > tolerance) tell_error(tracing.error, tracing.curve);
-  return std::move(tracing.curve);
+  if (kept.error > tolerance) tell_error(kept);
+  return std::move(kept.curve);
 }
 
 ReducedModel model_of(ReducedModel model, const solver::ResponseCurve& curve) {
