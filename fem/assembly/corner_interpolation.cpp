@@ -20,6 +20,7 @@ struct Corners {
   std::vector<PetscInt> number;
   PetscInt first = 0;  ///< [first, last) belong to this rank
   PetscInt last = 0;
+  PetscInt n = 0;  ///< on all ranks
 };
 
 Corners free_corners(const mesh::Mesh& mesh, const DofMap& dofs) {
@@ -37,6 +38,7 @@ Corners free_corners(const mesh::Mesh& mesh, const DofMap& dofs) {
     if (node < dofs.first()) corners.first = n;
     if (node < dofs.last()) corners.last = n;
   }
+  corners.n = n;
   return corners;
 }
 
@@ -85,6 +87,7 @@ bool has_edge_nodes(const mesh::Mesh& mesh) {
 MatHandle corner_interpolation(const mesh::Mesh& mesh, const DofMap& dofs) {
   if (!has_edge_nodes(mesh)) return {};
   const Corners corners = free_corners(mesh, dofs);
+  if (corners.n == 0) return {};
   MatHandle matrix = make_matrix(dofs, corners);
   const auto set = [&](PetscInt node, PetscInt corner, double value) {
     for (PetscInt axis = 0; axis < 3; ++axis) {

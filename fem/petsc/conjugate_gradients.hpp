@@ -31,7 +31,7 @@ class ConjugateGradients : public LinearSolver {
   /// Sets the levels up. The matrix may change afterwards without effect.
   /// @param matrix  symmetric positive definite, blocks of three, upper half stored.
   /// @param nodes   places of the nodes of this rank, in the order of its rows [m].
-  /// @param from_corners  P; null: there are corners only.
+  /// @param from_corners  P; null: levels are found by aggregation.
   /// @throws MemoryError  A_c does not fit; PetscError  another failure of its factorisation.
   ConjugateGradients(Mat matrix, const Eigen::MatrixX3d& nodes, Mat from_corners = nullptr);
 

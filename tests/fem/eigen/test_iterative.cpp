@@ -109,6 +109,19 @@ TEST_P(Elements, OfAPlateHaveTheSolutionOfTheDirectWay) {
 
 INSTANTIATE_TEST_SUITE_P(AllTypes, Elements, testing::ValuesIn(mesh::all_element_types));
 
+/// One layer between two held sides: free are nodes in the middle of edges alone.
+TEST(IterativeSolution, NeedsNoFreeCorner) {
+  const mesh::Mesh layer =
+      test::box_mesh(ElementType::hex20, {.size = {1.0, 1.0, 0.1}, .cells = {3, 3, 1}, .map = {}});
+  const Eigen::MatrixXd load = Eigen::MatrixXd::Random(3 * layer.n_nodes(), 1);
+  const auto solved = [&](SolverKind kind) {
+    return Structure(layer, titanium, {"z0", "z1"}, Tet10Rule::accurate, kind).solve_static(load);
+  };
+  const Eigen::MatrixXd exact = solved(SolverKind::direct);
+  ASSERT_GT(exact.norm(), 0.0);
+  EXPECT_LT((solved(SolverKind::iterative) - exact).norm(), 1e-6 * exact.norm());
+}
+
 TEST(IterativeSolution, OfABodyWithAMechanismIsRefused) {
   // Held along one edge: hinged. The levels are set up for a singular matrix.
   const mesh::Mesh mesh =
