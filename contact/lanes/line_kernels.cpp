@@ -163,9 +163,9 @@ MICROSLIP_INLINE Top top_of(const Spline& w, const Spline& r) {
   const Pack rises = w.slope > Pack{} ? x : none;
   const Pack falls = end < Pack{} ? x : none;
   // Where it turns twice within the step both ends rise or both fall.
-  const Pack bends = w.discriminant() > Pack{} ? x : none;
-  const Pack inside = top > Pack{} ? (top < Pack{} + 1.0 ? x : none) : none;
-  const Pack twice = w.slope * end > Pack{} ? larger(bends, inside) : none;
+  const Pack inside = smaller(top, Pack{} + 1.0 - top);
+  const Pack alike = smaller(w.slope * end, w.discriminant());
+  const Pack twice = smaller(inside, alike) > Pack{} ? x : none;
   const Pack holds = r.at(x) > Pack{} ? x : none;
   return {larger(smaller(larger(rises, falls), twice), holds), w.at(x)};
 }
