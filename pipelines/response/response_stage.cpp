@@ -441,7 +441,8 @@ std::vector<NamedMap> curve_maps(const ReducedModel& model, const SceneDescripti
       maps.push_back(std::move(map));
     }
   };
-  const solver::ContinuationOptions options = continuation_options(scene, model);
+  const ReducedModel solved = model_of(model, result.curve);
+  const solver::ContinuationOptions options = continuation_options(scene, solved);
   for (const MapEntry& entry : scene.response->maps) {
     if (const auto* frequency = std::get_if<double>(&entry)) {
       const ResponseDescription& range = *scene.response;
@@ -449,7 +450,7 @@ std::vector<NamedMap> curve_maps(const ReducedModel& model, const SceneDescripti
           *frequency == range.frequency_begin_hz && *frequency == range.frequency_end_hz;
       const auto points = solved_there ? result.curve.points
                                        : solver::points_at_frequency(
-                                             balanced_scene(model, *load, options), result.curve,
+                                             balanced_scene(solved, *load, options), result.curve,
                                              contact::two_pi * *frequency, options);
       for (std::size_t i = 0; i < points.size(); ++i) {
         add(fmt::format("{:g}Hz_{}", *frequency, i + 1), points[i]);

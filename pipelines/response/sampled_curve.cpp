@@ -43,7 +43,7 @@ class SampledError {
     const int own = instants_of(model);
     finer_ = own / 2 < least;
     other.effects.doublings += finer_ ? 1 : -1;
-    while (finer_ && instants_of(other) / 2 < least) {
+    while (finer_ && instants_of(other) < std::min(2 * least, most_instants)) {
       ++other.effects.doublings;
     }
     other_force_ = contact_of(other, load).modal_force();
