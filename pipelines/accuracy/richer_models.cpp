@@ -51,7 +51,9 @@ std::optional<RicherModel> with_second_direction(const ReducedModel& model,
   other.settings.second_direction = Discretisation::Choice::on;
   std::vector<std::string> warnings;
   try {
-    return RicherModel{"second_direction", model_of(other, &structure, warnings)};
+    RicherModel both{"second_direction", model_of(other, &structure, warnings)};
+    ++both.model.effects.doublings;  // beside a peak of many harmonics the usual instants are rough
+    return both;
   } catch (const RefusedError&) {
     return {};
   }
