@@ -47,6 +47,9 @@ enum class Method { closed_form, lanes, point_methods };
 /// @param plain  one direction, constant friction, smooth surfaces everywhere.
 [[nodiscard]] Method method_for(Eigen::Index n_points, bool plain, int n_harmonics);
 
+/// One direction, constant friction, smooth surfaces everywhere.
+[[nodiscard]] bool are_plain(std::span<const Patch> patches, const ContactEffects& effects);
+
 /// Whether forces of the patches are sampled in time, in lanes (contact/sampled), instead of
 /// located event by event: where several harmonics meet many points.
 [[nodiscard]] bool is_sampled(std::span<const Patch> patches, const ContactEffects& effects);

@@ -37,10 +37,6 @@ bool is_plain(const Patch& patch, const ContactEffects& effects) {
   return !effects.second_direction && patch.rules.plain();
 }
 
-bool are_plain(std::span<const Patch> patches, const ContactEffects& effects) {
-  return std::ranges::all_of(patches, [&](const Patch& patch) { return is_plain(patch, effects); });
-}
-
 Eigen::Index n_points(std::span<const Patch> patches) {
   Eigen::Index n = 0;
   for (const Patch& patch : patches) n += patch.cells.size();
@@ -163,6 +159,10 @@ Method method_for(Eigen::Index n_points, bool plain, int n_harmonics) {
   return n_points >= least_points_in_lanes ? Method::lanes : Method::point_methods;
 }
 
+bool are_plain(std::span<const Patch> patches, const ContactEffects& effects) {
+  return std::ranges::all_of(patches, [&](const Patch& patch) { return is_plain(patch, effects); });
+}
+
 bool is_sampled(std::span<const Patch> patches, const ContactEffects& effects) {
   return method_for(patches, effects) == Method::lanes;
 }
@@ -172,7 +172,8 @@ int instants_of(std::span<const Patch> patches, const ContactEffects& effects) {
   const double order = plain ? 3.0 : 2.0;
   const double closer = std::log2(1e-3 / std::clamp(effects.force_tolerance, 1e-6, 1e-3)) / order;
   int asked = plain ? instants_of_plain_lines : instants_of_others;
-  asked = std::min(asked << static_cast<int>(std::ceil(closer - 1e-6)), most_instants);
+  constexpr double rounding = 1e-6;  // of a logarithm that is a whole number
+  asked = std::min(asked << static_cast<int>(std::ceil(closer - rounding)), most_instants);
   const int doublings = effects.doublings;
   return doublings < 0 ? asked >> -doublings : std::min(asked << doublings, most_instants);
 }

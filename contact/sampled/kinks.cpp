@@ -148,13 +148,8 @@ class Step {
   }
 
   void open() {
-    StepSpline fall = r_;
-    fall.begin = -fall.begin;
-    fall.slope = -fall.slope;
-    fall.square = -fall.square;
-    fall.cube = -fall.cube;
-    const double place =
-        fall.rise_through_zero(at(columns_.closeness, before_) - at(columns_.closeness, now_));
+    const double fall = at(columns_.closeness, before_) - at(columns_.closeness, now_);
+    const double place = r_.negated().rise_through_zero(fall);
     const bool rubs = point_.tangential_stiffness > 0.0;
     if (rubs && side_ == 0.0) {
       begin_slip(u_.at(place) < slider_ ? -1.0 : 1.0, place);
@@ -257,8 +252,7 @@ KinkMoments kink_moments(double x) {
   // β_1 … β_6, by B_{m+1}(x) in y = x (1 − x) and z = x − 1/2.
   const double y = x * (1.0 - x);
   const double z = x - 0.5;
-  const std::array<double, 7> beta{
-      z,
+  const std::array<double, 6> beta{
       -(1.0 / 6.0 - y) / 2.0,
       -y * z / 6.0,
       -(y * y - 1.0 / 30.0) / 24.0,
@@ -270,7 +264,7 @@ KinkMoments kink_moments(double x) {
       {{1.0, 1.0, 1.0}, {2.0, 3.0, 4.0}, {3.0, 6.0, 10.0}, {4.0, 10.0, 20.0}}};
   KinkMoments moments{};
   for (std::size_t l = 0; l < 4; ++l) {
-    for (std::size_t i = 0; i < 3; ++i) moments[l][i] = choose[l][i] * beta[i + 1 + l];
+    for (std::size_t i = 0; i < 3; ++i) moments[l][i] = choose[l][i] * beta[i + l];
   }
   return moments;
 }

@@ -65,14 +65,7 @@ class Step {
     return to_ == InstantState::separated ? opening() : 1.0;
   }
 
-  [[nodiscard]] double opening() const {
-    StepSpline fall = r_;
-    fall.begin = -fall.begin;
-    fall.slope = -fall.slope;
-    fall.square = -fall.square;
-    fall.cube = -fall.cube;
-    return fall.rise_through_zero(-rise_of_load());
-  }
+  [[nodiscard]] double opening() const { return r_.negated().rise_through_zero(-rise_of_load()); }
 
   /// Where the end of the band meets the slider.
   [[nodiscard]] double meeting(double direction) const {

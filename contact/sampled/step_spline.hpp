@@ -26,6 +26,13 @@ struct StepSpline {
     square = 3.0 * rise - 2.0 * m1 - m2;
     cube = m1 + m2 - 2.0 * rise;
   }
+  [[nodiscard]] StepSpline negated() const {
+    StepSpline result = *this;
+    for (double* number : {&result.begin, &result.slope, &result.square, &result.cube}) {
+      *number = -*number;
+    }
+    return result;
+  }
   /// w + factor r.
   [[nodiscard]] StepSpline plus(double factor, const StepSpline& r) const {
     StepSpline sum = *this;
