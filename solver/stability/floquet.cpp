@@ -27,7 +27,7 @@ constexpr double step_tolerance = 1e-9;
 constexpr double real_angle = 1e-2;
 
 // Differences follow two periods a coordinate, each point event by event: 600 coordinates times
-// points take about a second.
+// points take some two seconds.
 constexpr Eigen::Index most_differences = 600;
 
 TimeOptions period_options() {
