@@ -193,6 +193,7 @@ class Search {
             .upper = options.upper,
             .n_values = options.n_scan,
             .n_checks = 3,
+            .only_check = options.believed,
             .scale = options.scale,
             .amplitude_tolerance = options.amplitude_tolerance,
             .together = options.together};
@@ -524,6 +525,7 @@ OptimumOptions about(const OptimumOptions& options, const Optimum& first) {
   near.lower = std::max(options.lower, std::clamp(low, farthest[0], nearest[0]));
   near.upper = std::min(options.upper, std::clamp(high, nearest[1], farthest[1]));
   near.n_scan = std::min(options.n_scan, n_scan);
+  near.believed = best;
   return near;
 }
 

@@ -73,8 +73,7 @@ PeakFamilies::PeakFamilies(const SceneFamily& family, const ContinuationOptions&
   options_.n_checks = std::min(options.n_checks, options.n_values);
   spacing_ = (position(options.upper) - position(options.lower)) / (options.n_values - 1);
   std::vector<double> checks;
-  checks.reserve(static_cast<std::size_t>(options_.n_checks));
-  for (int i = 0; i < options_.n_checks; ++i) checks.push_back(parameter(check_position(i)));
+  for (const double check : check_positions()) checks.push_back(parameter(check));
   PeakWork work;
   range_ = with_common_harmonics(family_, checks, choosing_, work);
   result_.iterations += work.iterations;
@@ -101,9 +100,19 @@ double PeakFamilies::value_position(int index) const {
   return position(options_.lower) + spacing_ * index;
 }
 
-double PeakFamilies::check_position(int index) const {
+std::vector<double> PeakFamilies::check_positions() const {
   const double last = options_.n_values - 1;
-  return value_position(static_cast<int>(std::lround(index * last / (options_.n_checks - 1))));
+  if (options_.only_check) {
+    const double index = (position(*options_.only_check) - value_position(0)) / spacing_;
+    return {value_position(static_cast<int>(std::lround(std::clamp(index, 0.0, last))))};
+  }
+  std::vector<double> positions;
+  positions.reserve(static_cast<std::size_t>(options_.n_checks));
+  for (int i = 0; i < options_.n_checks; ++i) {
+    const double index = std::round(i * last / (options_.n_checks - 1));
+    positions.push_back(value_position(static_cast<int>(index)));
+  }
+  return positions;
 }
 
 void PeakFamilies::note(const std::string& text, double position) {
@@ -272,11 +281,20 @@ bool PeakFamilies::known_elsewhere(std::size_t family, double position) const {
   return false;
 }
 
+/// Gives a peak up where another family has it.
+bool PeakFamilies::left_to_another(std::size_t family, double position) {
+  if (!known_elsewhere(family, position)) return false;
+  families_[family].peaks.erase(position);
+  families_[family].met.insert(position);
+  return true;
+}
+
 /// A peak that the curve does not have: its branch has come off the curve somewhere since the last
 /// curve that had it. What is higher than all of the curve is a solution that counts, and stays;
 /// what is no higher, within a tolerance above rounding, goes from here alone.
 /// @return  whether it goes, back to the last curve that had it.
-bool PeakFamilies::cut(Peaks& peaks, double position) {
+bool PeakFamilies::cut(Followed& family, double position) {
+  Peaks& peaks = family.peaks;
   const std::vector<HighPoint>& solved = curves_.at(position).high;
   const double amplitude = peaks.at(position).amplitude;
   const bool coarse = options_.amplitude_tolerance > rounded_amplitude;
@@ -290,8 +308,10 @@ bool PeakFamilies::cut(Peaks& peaks, double position) {
   }
   if (coarse) {
     peaks.erase(position);
+    family.refuted.insert(position);
     return true;
   }
+  for (Followed& other : families_) other.met.clear();  // what they met may be what goes
   note(
       "a followed peak is not on the curve (its branch is detached, or another peak), curves "
       "traced whole",
@@ -389,6 +409,15 @@ bool PeakFamilies::follow_from(Followed& family, Peaks::const_iterator nearest,
   return true;
 }
 
+/// As follow_to(); what has failed is not tried again while no other peak is known.
+bool PeakFamilies::is_reached(Followed& family, double target) const {
+  const auto before = family.unreached.find(target);
+  if (before != family.unreached.end() && before->second == family.peaks.size()) return false;
+  const bool reached = follow_to(family, target);
+  if (!reached) family.unreached[target] = family.peaks.size();
+  return reached;
+}
+
 /// From a known peak over all values up or down, until it is lost or met by another family.
 void PeakFamilies::follow_values(std::size_t family, double from, double direction) {
   for (int i = 0; i < options_.n_values; ++i) {
@@ -405,14 +434,11 @@ void PeakFamilies::follow_values(std::size_t family, double from, double directi
       }
       return;
     }
-    if (known_elsewhere(family, target)) {
-      peaks.erase(target);
-      return;
-    }
+    if (left_to_another(family, target)) return;
     const auto curve = curves_.find(target);
     const bool contradicted =
         curve != curves_.end() && curve->second.traced.complete && !agrees(peaks, target);
-    if (contradicted && cut(peaks, target)) return;
+    if (contradicted && cut(families_[family], target)) return;
   }
 }
 
@@ -423,7 +449,7 @@ void PeakFamilies::seed(double position, int search_starts) {
     for (Followed& family : families_) {
       Peaks& peaks = family.peaks;
       const bool contradicted = peaks.contains(position) && !agrees(peaks, position);
-      if (contradicted) static_cast<void>(cut(peaks, position));
+      if (contradicted) static_cast<void>(cut(family, position));
     }
   }
   const Scene scene = family_(parameter(position));
@@ -463,9 +489,7 @@ void PeakFamilies::settle() {
 void PeakFamilies::trace() {
   const int last = options_.n_values - 1;
   for (int i = 0; i <= last; ++i) asked_.insert(value_position(i));
-  std::vector<double> checks;
-  checks.reserve(static_cast<std::size_t>(options_.n_checks));
-  for (int i = 0; i < options_.n_checks; ++i) checks.push_back(check_position(i));
+  const std::vector<double> checks = check_positions();
   trace_ahead(checks, 0);
   for (const double check : checks) seed(check);
   settle();
@@ -475,6 +499,14 @@ void PeakFamilies::trace() {
     seed(here);
     settle();
   }
+}
+
+/// Whether another family's peak lies on the way there from the nearest of its own.
+bool PeakFamilies::is_anothers(const Followed& family, Peaks::const_iterator nearest,
+                               double position) {
+  const auto [low, high] = std::minmax(nearest->first, position);
+  const auto met = family.met.lower_bound(low);
+  return met != family.met.end() && *met <= high;
 }
 
 /// Those with a peak within a spacing, by the amplitude of the nearest.
@@ -488,6 +520,8 @@ std::vector<std::size_t> PeakFamilies::highest_near(double position) const {
                         position - std::prev(nearest)->first < nearest->first - position);
     if (below) --nearest;
     if (nearest == peaks.end() || std::abs(nearest->first - position) > spacing_) continue;
+    if (families_[i].refuted.contains(position)) continue;
+    if (is_anothers(families_[i], nearest, position)) continue;
     by_amplitude.emplace_back(-nearest->second.amplitude, i);
   }
   std::ranges::sort(by_amplitude);
@@ -503,11 +537,11 @@ PeakOfParameter PeakFamilies::highest(double parameter) {
   const std::vector<std::size_t> near = highest_near(here);
   std::vector<char> is_there(near.size());  // not of bits: written side by side
   options_.together(near.size(), [&](std::size_t i) {
-    is_there[i] = follow_to(families_[near[i]], here) ? 1 : 0;
+    is_there[i] = is_reached(families_[near[i]], here) ? 1 : 0;
   });
   asked_.insert(here);  // not before: stopped in the middle, the highest is not known
   for (std::size_t i = 0; i < near.size(); ++i) {
-    if (is_there[i] != 0 && known_elsewhere(near[i], here)) families_[near[i]].peaks.erase(here);
+    if (is_there[i] != 0) static_cast<void>(left_to_another(near[i], here));
   }
   PeakOfParameter best = highest_at(here);
   best.parameter = parameter;

@@ -64,6 +64,8 @@ struct PeakTraceOptions {
   double upper = 0.0;  ///< > lower
   int n_values = 30;   ///< spread evenly on the scale, both bounds included, ≥ 2
   int n_checks = 4;    ///< whole curves, spread evenly, both bounds included, ≥ 2
+  /// In their place: one whole curve, at the value nearest to this, between the bounds.
+  std::optional<double> only_check;
   ParameterScale scale = ParameterScale::logarithmic;
   /// Relative: amplitudes that close are the same. Above rounding, a peak that is as high as the
   /// highest of a curve need not be that peak, and what is lower than it is dropped without a word.
@@ -121,7 +123,10 @@ class PeakFamilies {
   /// What one peak or end is.
   struct Followed {
     Peaks peaks;
-    std::map<double, Reach> reach;  // by position
+    std::map<double, Reach> reach;            // by position
+    std::set<double> met;                     // positions where it is a peak of another family
+    std::set<double> refuted;                 // positions whose curve does not have it
+    std::map<double, std::size_t> unreached;  // positions, and how many peaks were known then
     PeakWork work;
   };
   struct Curve {
@@ -135,7 +140,7 @@ class PeakFamilies {
   [[nodiscard]] double known_position(double parameter) const;
   [[nodiscard]] double parameter(double position) const;
   [[nodiscard]] double value_position(int index) const;
-  [[nodiscard]] double check_position(int index) const;
+  [[nodiscard]] std::vector<double> check_positions() const;
   [[nodiscard]] const LocalPeak* highest_followed(double position) const;
   [[nodiscard]] PeakOfParameter highest_at(double position) const;
   [[nodiscard]] bool needs_curve(double position) const;
@@ -151,14 +156,18 @@ class PeakFamilies {
   void follow_values(std::size_t family, double from, double direction);
   [[nodiscard]] long curve_cost() const;
   bool follow_to(Followed& family, double target) const;
+  bool is_reached(Followed& family, double target) const;
   bool follow_from(Followed& family, Peaks::const_iterator nearest, double target) const;
   [[nodiscard]] std::optional<LocalPeak> followed(const Peaks& peaks, Peaks::const_iterator nearest,
                                                   double target, PeakWork& work) const;
   [[nodiscard]] std::vector<std::size_t> highest_near(double position) const;
   [[nodiscard]] bool known_elsewhere(std::size_t family, double position) const;
+  bool left_to_another(std::size_t family, double position);
+  [[nodiscard]] static bool is_anothers(const Followed& family, Peaks::const_iterator nearest,
+                                        double position);
   void search_everywhere(int search_starts);
   [[nodiscard]] bool agrees(const Peaks& peaks, double position) const;
-  [[nodiscard]] bool cut(Peaks& peaks, double position);
+  [[nodiscard]] bool cut(Followed& family, double position);
   void note(const std::string& text, double position);
   void warn(const std::string& text, double position);
 

@@ -98,6 +98,38 @@ TEST(PeakTrace, SeesASecondPeakOvertake) {
   }
 }
 
+TEST(PeakTrace, BegunWithOneCurveIsThatOfThree) {
+  PeakTraceOptions options = between(30.0, 300.0, 9);
+  options.n_checks = 3;
+  const PeakTrace of_three = tests::traced_peaks(tests::chain_scene, chain_range(), options);
+  options.only_check = 90.0;
+  const PeakTrace of_one = tests::traced_peaks(tests::chain_scene, chain_range(), options);
+  EXPECT_LT(of_one.n_curves, of_three.n_curves);
+  ASSERT_EQ(of_one.peaks.size(), of_three.peaks.size());
+  for (std::size_t i = 0; i < of_one.peaks.size(); ++i) {
+    const double amplitude = of_three.peaks[i].amplitude;
+    EXPECT_NEAR(of_one.peaks[i].amplitude, amplitude, 1e-8 * amplitude)
+        << of_one.peaks[i].parameter;
+  }
+}
+
+TEST(PeakTrace, FollowsNoPeakTwiceToOneValue) {
+  PeakTraceOptions coarse = between(0.1, 10.0, 9);
+  coarse.amplitude_tolerance = 3e-3;
+  for (const std::uint64_t seed : {11U, 23U}) {  // where a curve refutes peaks, or families meet
+    const SceneFamily family = [seed](double factor) { return with_preload(seed, factor); };
+    PeakFamilies families(family, tests::random_scene(seed).options, coarse);
+    families.trace();
+    for (const double factor : {0.4, 3.0}) {
+      static_cast<void>(families.confirm(factor));
+      const double amplitude = families.highest(factor).amplitude;
+      const long evaluations = families.result().contact_evaluations;
+      EXPECT_EQ(families.highest(factor).amplitude, amplitude) << seed << " factor " << factor;
+      EXPECT_EQ(families.result().contact_evaluations, evaluations) << seed << " factor " << factor;
+    }
+  }
+}
+
 TEST(PeakTrace, TakesAnyParameterOnALinearScale) {
   // The normal load of a gap oscillator from bonded to open: the parameter changes its sign.
   const auto family = [](double load) {
