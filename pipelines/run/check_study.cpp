@@ -164,7 +164,7 @@ void ask(CheckResult& result, const What&... what) {
 /// and their questions need no run.
 bool is_short(const mesh::Mesh& mesh, const SceneDescription& scene) {
   const double degrees_of_freedom = 3.0 * static_cast<double>(mesh.n_nodes());
-  if (modes_seconds(degrees_of_freedom, scene.settings.basis.n_modes) > longest_solution) {
+  if (modes_seconds(degrees_of_freedom, scene.settings.basis) > longest_solution) {
     return false;
   }
   const SolverMemory memory = solver_memory(mesh, scene.settings.basis.solver);

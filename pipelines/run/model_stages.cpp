@@ -54,7 +54,7 @@ StructurePointer solved_structure(const SceneDescription& scene, RunRecord& reco
   record.stage("modes");
   if (given_modes(scene) == nullptr) {
     record.progress().expect(
-        modes_seconds(3.0 * static_cast<double>(mesh.n_nodes()), scene.settings.basis.n_modes));
+        modes_seconds(3.0 * static_cast<double>(mesh.n_nodes()), scene.settings.basis));
   }
   std::optional<StructureModes> modes = record.finished_modes();
   if (!modes) modes = solve_structure(mesh, scene);

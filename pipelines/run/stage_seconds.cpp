@@ -29,7 +29,7 @@ ResponseSeconds seconds_of(const ReducedModel& model, const SceneDescription& sc
 double mesh_and_modes_seconds(double degrees_of_freedom, const SceneDescription& scene) {
   const double mesh = (element_size_of(scene) ? per_meshed_freedom : 1e-5) * degrees_of_freedom;
   if (given_modes(scene) != nullptr) return mesh;
-  const double modes = modes_seconds(degrees_of_freedom, scene.settings.basis.n_modes);
+  const double modes = modes_seconds(degrees_of_freedom, scene.settings.basis);
   constexpr double start = 0.5;  // of the mesher, of the libraries
   return start + mesh + modes;
 }
@@ -54,7 +54,7 @@ double modes_again_seconds(double degrees_of_freedom, const SceneDescription& sc
     if (known || (model == nullptr && left_out(scene, name) != nullptr)) n += 1.0;
   }
   if (n > 0.0 && std::max(static_cast<double>(names.size()), n) > 1.0) n += 1.0;  // all together
-  return n * modes_seconds(degrees_of_freedom, scene.settings.basis.n_modes);
+  return n * modes_seconds(degrees_of_freedom, scene.settings.basis);
 }
 
 double mesh_seconds(const SceneDescription& scene) {

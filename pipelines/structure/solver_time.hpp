@@ -3,16 +3,17 @@
 #pragma once
 
 #include "mesh/mesh.hpp"
+#include "pipelines/description/discretisation.hpp"
 
 namespace microslip::pipelines {
 
-/// With the count that none is missed; anchored at 115 000 degrees of freedom (factorisation of a
-/// sparse three-dimensional mesh: time as n^1.5). Seconds of one core,
-/// right within a factor of two.
-[[nodiscard]] double modes_seconds(double degrees_of_freedom, int n_modes);
+/// Seconds of one core, right within a factor of two. Directly: with the count that none is missed,
+/// anchored at 115 000 degrees of freedom (factorisation of a sparse three-dimensional mesh: time
+/// as n^1.5). Iteratively: as n, for the steps hardly grow with the mesh.
+[[nodiscard]] double modes_seconds(double degrees_of_freedom, const BasisSettings& basis);
 
 /// @throws ExhaustedError  half of the forecast, which it may be wrong by,
 ///         is more than the budget of time leaves.
-void require_time(const mesh::Mesh& mesh, int n_modes);
+void require_time(const mesh::Mesh& mesh, const BasisSettings& basis);
 
 }  // namespace microslip::pipelines

@@ -152,7 +152,7 @@ bool has_iterative_way(const StructureTask& task) {
 StructureModes solve_on_all_ranks(const StructureTask& task) {
   require_count(task);
   require_memory(task.mesh, task.basis.solver);
-  require_time(task.mesh, task.basis.n_modes);
+  require_time(task.mesh, task.basis);
   StructureModes modes;
   try {
     on_all_ranks(

@@ -1,8 +1,10 @@
 // Modes that a budget of time has no room for are not begun.
 #include "pipelines/structure/solver_time.hpp"
 
+#include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -12,6 +14,8 @@
 
 namespace microslip::pipelines::test_solver_time {
 namespace {
+
+const BasisSettings ten;
 
 struct Budget {
   explicit Budget(double seconds) { begin_deadline(seconds); }
@@ -23,21 +27,32 @@ struct Budget {
 };
 
 TEST(SolverTime, GrowsWithTheMeshAndTheNumberOfModes) {
-  EXPECT_GT(modes_seconds(200'000.0, 10), 2.0 * modes_seconds(100'000.0, 10));
-  EXPECT_GT(modes_seconds(1e5, 40), 3.0 * modes_seconds(1e5, 10));
+  EXPECT_GT(modes_seconds(200'000.0, ten), 2.0 * modes_seconds(100'000.0, ten));
+  EXPECT_GT(modes_seconds(1e5, {.n_modes = 40}), 3.0 * modes_seconds(1e5, ten));
+}
+
+TEST(SolverTime, OfTheIterativeWayIsWithinAFactorOfTwoOfWhatItTook) {
+  const BasisSettings iterative{.solver = fem::SolverKind::iterative};
+  // Without mesh and start, share/doc/costs.md.
+  for (const auto& [degrees_of_freedom, seconds] :
+       {std::pair(31'395.0, 15.3), std::pair(116'622.0, 68.0), std::pair(326'766.0, 171.0)}) {
+    EXPECT_NEAR(std::log2(modes_seconds(degrees_of_freedom, iterative) / seconds), 0.0, 1.0);
+    EXPECT_GT(modes_seconds(degrees_of_freedom, iterative),
+              2.0 * modes_seconds(degrees_of_freedom, ten));
+  }
 }
 
 TEST(SolverTime, WhatFitsIsBegunAndWhatDoesNotIsRefusedWithWhatWouldHelp) {
   const mesh::Mesh mesh = test::box_mesh(mesh::ElementType::hex8, {});
-  EXPECT_NO_THROW(require_time(mesh, 10));
-  const double seconds = modes_seconds(3.0 * static_cast<double>(mesh.n_nodes()), 10);
+  EXPECT_NO_THROW(require_time(mesh, ten));
+  const double seconds = modes_seconds(3.0 * static_cast<double>(mesh.n_nodes()), ten);
   {
     const Budget enough(10.0 * seconds + 60.0);
-    EXPECT_NO_THROW(require_time(mesh, 10));
+    EXPECT_NO_THROW(require_time(mesh, ten));
   }
   const Budget little(0.1 * seconds);
   try {
-    require_time(mesh, 10);
+    require_time(mesh, ten);
     FAIL() << "begun";
   } catch (const std::exception& error) {
     EXPECT_EQ(exit_code_of(error), ExitCode::exhausted);
