@@ -432,6 +432,42 @@ class Page(Case):
         share = float(self.measured(text[:start] + json.dumps(data) + text[end:], pixels, 1000))
         self.assertLess(abs(share / 0.5 - 1), 0.02)  # of a square; a ring lies on one
 
+    def test_every_peak_can_be_zoomed_on(self):
+        """In the middle, and the only one of its curve: 40 resonances of which the highest is 1000 times the lowest."""
+        text = self.page(self.run_.folder)
+        data = self.data(text)
+        places, n = 20.0 + 10.0 * np.arange(40), 15
+        near = np.sinh(np.linspace(-6.0, 6.0, n)) / np.sinh(6.0)
+        frequency = (places[:, None] + 4.9 * near).ravel()
+        amplitude = (np.geomspace(1.0, 1e-3, 40)[:, None] / np.hypot(1.0, 500.0 * near)).ravel()
+        one = {**data["curves"][0], "frequency": list(frequency), "values": {"amplitude": list(amplitude)}, "between": {}, "bar": None,
+               "stable": [1] * len(frequency), "mark": ["peak" if i % n == n // 2 else "" for i in range(len(frequency))]}
+        one.pop("richer", None)
+        data["curves"], data["peaks"] = [one], []
+        start, end = re.search(r'<script type="application/json" id="data">(.*?)</script>', text, re.S).span(1)
+        seen = ("[...document.querySelectorAll('[data-tools=curves] select option')].slice(1).map((_, i) => {"
+                "const list = document.querySelector('[data-tools=curves] select'); list.selectedIndex = i + 1; list.onchange();"
+                "const svg = document.querySelector('[data-chart=curves] svg'), middle = (62 + svg.viewBox.baseVal.width - 12) / 2;"
+                "return [...svg.querySelectorAll('g circle')].map(c => c.getAttribute('cx') - middle).filter(x => Math.abs(x) < 450)"
+                ".map(x => Math.round(x)).join(' '); }).join()")
+        self.assertEqual(self.measured(text[:start] + json.dumps(data) + text[end:], seen, 1000), ",".join("0" * 40))
+
+    def test_rounding_does_not_squeeze_the_dissipated_energy(self):
+        text = self.page(self.run_.folder)
+        data = self.data(text)
+        next(curve for curve in data["curves"] if curve["name"] == "preload_50")["values"]["dissipated_energy"][0] = 1e-18
+        start, end = re.search(r'<script type="application/json" id="data">(.*?)</script>', text, re.S).span(1)
+        labels = ("(() => { [...document.querySelectorAll('[data-tools=curves] button')].find(b => b.textContent.startsWith('dissipated')).click();"
+                  "return [...document.querySelectorAll('[data-chart=curves] svg text[text-anchor=end]')].map(t => t.textContent).join(); })()")
+        drawn = self.measured(text[:start] + json.dumps(data) + text[end:], labels, 1000).split(",")
+        self.assertGreater(len(drawn), 3)
+        self.assertFalse([label for label in drawn if re.search("10⁻[¹²³⁴⁵⁶⁷⁸⁹]{2}|10⁻[⁷⁸⁹]", label)], drawn)
+
+    def test_paper_names_the_map_it_shows(self):
+        text = self.page(self.run_.folder).replace("@media print", "@media screen")
+        shown = self.measured(text, "document.querySelector('[data-chart=maps]').innerText.split('\\n')[0]", 718)
+        self.assertRegex(shown, r"^preload_\d+_peak, [\d.]+ Hz, state; θ = \d+°: ")
+
     def test_bars_of_one_budget_start_at_one_place(self):
         text = self.page(self.run_.folder)
         starts = ("Math.max(...[...document.querySelectorAll('.budget')].map(b => new Set([...b.querySelectorAll('.bar i')]"

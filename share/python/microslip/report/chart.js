@@ -63,10 +63,12 @@ class Axis {
   }
 }
 
-function rangeOf(values, log, pad) {
+// decades: the most that a logarithmic axis shows, below its highest value.
+function rangeOf(values, log, pad, decades = Infinity) {
   const good = values.filter((v) => v !== null && isFinite(v) && (!log || v > 0));
   if (!good.length) return log ? [1, 10] : [0, 1];
   let low = good.reduce((a, b) => Math.min(a, b)), high = good.reduce((a, b) => Math.max(a, b));
+  if (log) low = Math.max(low, high / 10 ** decades);
   if (low === high) return log ? [low / 2, low * 2] : [low - 1, low + 1];
   if (log) { const more = (high / low) ** pad; return [low / more, high * more]; }
   return [low - pad * (high - low), high + pad * (high - low)];
@@ -94,7 +96,7 @@ class Chart {
     this.size = { width, height, left: 62, right: 12, top: 10, bottom: 44 };
     const all = this.seen();
     const x = this.zoom ? this.zoom[0] : rangeOf(all.flatMap((s) => s.x), this.names.xLog, this.names.xPad ?? 0.01);
-    const y = this.zoom ? this.zoom[1] : rangeOf(all.flatMap((s) => s.y), this.names.yLog, 0.08);
+    const y = this.zoom ? this.zoom[1] : rangeOf(all.flatMap((s) => s.y), this.names.yLog, 0.08, this.names.decades);
     this.x = new Axis(x, this.names.xLog, this.size.left, width - this.size.right);
     this.y = new Axis(y, this.names.yLog, height - this.size.bottom, this.size.top);
   }

@@ -12,6 +12,9 @@ function choice(parent, entries, chosen, then) {
   });
 }
 
+// What friction dissipates where nothing slips is rounding, many decades lower.
+const DECADES = { dissipated_energy: 4 };
+
 function curveSeries(curve, quantity) {
   const values = curve.values[quantity.key] || curve.frequency.map(() => null), last = values.length - 1;
   const state = { "1": "stable", "0": "unstable", "-1": "stability not judged" };
@@ -31,13 +34,13 @@ function showCurves() {
   const chart = new Chart(place, { x: "excitation frequency [Hz]" });
   const richer = (quantity) => (quantity.key === "amplitude" ? data.curves.filter((curve) => curve.richer).map(richerSeries) : []);
   const show = (quantity) => chart.show([...data.curves.map((curve) => curveSeries(curve, quantity)), ...richer(quantity)],
-    { y: quantity.label, yLog: quantity.log });
+    { y: quantity.label, yLog: quantity.log, decades: DECADES[quantity.key] });
   choice(tools, data.quantities.map((q) => ({ ...q, label: q.short, axis: q.label })), 0, (q) => show({ ...q, label: q.axis }));
   show(data.quantities[0]);
   const peaks = part("select", tools);
   part("option", peaks, "zoom on …");
-  data.peaks.forEach((peak) => part("option", peaks, `peak of ${peak.label}, ${told(peak.frequency)} Hz`));
-  peaks.onchange = () => { zoomOnPeak(chart, data.peaks[peaks.selectedIndex - 1]); peaks.selectedIndex = 0; };
+  const places = data.curves.flatMap((curve) => offerPeaks(peaks, curve));
+  peaks.onchange = () => { zoomOnPeak(chart, ...places[peaks.selectedIndex - 1]); peaks.selectedIndex = 0; };
   part("button", tools, "whole range").onclick = () => { chart.zoom = null; chart.draw(); };
   legend(place.parentNode.insertBefore(part("div"), place.nextSibling), chart, data.curves);
 }
@@ -49,15 +52,26 @@ function richerSeries({ label, colour, richer }) {
       `${told(richer.amplitude[1])} ${data.unit}`] };
 }
 
-// As wide as the peak is at half of its height, and some more.
-function zoomOnPeak(chart, peak) {
-  if (!peak) return;
-  const curve = data.curves.find((c) => c.label === peak.label), high = curve.values.amplitude;
-  const near = curve.frequency.filter((f, i) => high[i] > 0.5 * peak.amplitude);
-  const width = Math.max(1e-4 * peak.frequency, near.reduce((w, f) => Math.max(w, Math.abs(f - peak.frequency)), 0));
-  const x = [peak.frequency - 2 * width, peak.frequency + 2 * width];
+// Every peak of a curve as an entry of the list; of a curve without one its highest point. Gives [curve, point] of each.
+function offerPeaks(list, curve) {
+  const high = curve.values.amplitude, group = part("optgroup", list);
+  const peaks = [...high.keys()].filter((i) => curve.mark[i] === "peak");
+  if (!peaks.length && high.length) peaks.push(high.indexOf(high.reduce((a, b) => Math.max(a, b))));
+  group.label = curve.label;
+  peaks.forEach((i) => part("option", group, `${curve.label}: ${told(high[i], 3)} ${data.unit} at ${told(curve.frequency[i])} Hz`));
+  return peaks.map((i) => [curve, i]);
+}
+
+// As wide as the peak is at half of its height, and some more; not as far as a peak of twice the height.
+function zoomOnPeak(chart, { frequency, values: { amplitude } }, peak) {
+  const centre = frequency[peak], beside = (i) => amplitude[i] > 0.5 * amplitude[peak] && amplitude[i] < 2 * amplitude[peak];
+  let from = peak, to = peak;
+  while (from > 0 && beside(from - 1)) --from;
+  while (to + 1 < frequency.length && beside(to + 1)) ++to;
+  const width = frequency.slice(from, to + 1).reduce((w, f) => Math.max(w, Math.abs(f - centre)), 1e-4 * centre);
+  const x = [centre - 2 * width, centre + 2 * width];
   const inside = chart.seen().flatMap((s) => s.y.filter((v, i) => s.x[i] >= x[0] && s.x[i] <= x[1]));
-  chart.zoom = [x, rangeOf(inside, chart.names.yLog, 0.08)];
+  chart.zoom = [x, rangeOf(inside, chart.names.yLog, 0.08, chart.names.decades)];
   chart.draw();
 }
 
@@ -311,7 +325,7 @@ function showMaps() {
     title.textContent = `Hysteresis of point ${map.point + 1}: ${told(100 * map.area[map.point], 2)} % of the area` +
       (map.cycles.length > 1 ? ", along p (blue) and r (red)" : "");
     map.key(key, chosen);
-    told_.textContent = `θ = ${told(map.phases[phase], 4)}°: ${map.shares(phase)} of the area`;
+    told_.textContent = `${which.value}, ${what.value}; θ = ${told(map.phases[phase], 4)}°: ${map.shares(phase)} of the area`;
     axes.textContent = map.cells.length ? `${map.axes[0]} to the right, ${map.axes[1]} upwards; ${sizeOf(map)}`
       : `${map.n} contact points from above, one period from left to right`;
   };

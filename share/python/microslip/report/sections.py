@@ -182,7 +182,7 @@ def peaks(run: Run, data: Data) -> str:
                      unjudged(data, curve["name"]), state_of(curve)])
     head = ["preload scale" if data["scaled"] else "preload [N]", "peak [Hz]", f"peak [{data['unit']}]", "peak ±",
             "against free", "folds [Hz]", "stability not judged", "state"]
-    return table(head, rows, (0, 1, 2, 3, 4, 6)) if rows else ""
+    return table(head, rows, (0, 1, 2, 3, 4, 6), "peaks") if rows else ""
 
 
 def optimum(run: Run, data: Data) -> str:
