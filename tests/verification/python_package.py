@@ -230,6 +230,8 @@ class Damaged(Case):
             microslip.open(folder).plot_curves()
         with self.assertRaisesRegex(microslip.RunError, "summary.json is missing"):
             microslip.open(os.path.join(folder, "curves"))
+        with self.assertRaisesRegex(microslip.RunError, "summary.json is missing; is this the folder"):
+            microslip.open(path)
 
     def test_a_run_that_is_being_written_has_its_finished_curves(self):
         folder = fresh("running")
@@ -258,7 +260,8 @@ class Damaged(Case):
 
     def test_packages_that_are_missing_are_named(self):
         for package, use in (("matplotlib", self.run_.plot_curves), ("pandas", self.run_.frame),
-                             ("xarray", self.run_.peaks.dataset), ("meshio", self.run_.maps["preload_50_peak"].mesh)):
+                             ("xarray", self.run_.peaks.dataset), ("meshio", self.run_.maps["preload_50_peak"].mesh),
+                             ("h5py", lambda: microslip.open(self.run_.folder).curves["preload_50"].energy)):
             with self.subTest(package), mock.patch.dict(sys.modules, {package: None}):
                 with self.assertRaisesRegex(microslip.MissingPackage, rf"{package} is not installed.*apt-get.*without it"):
                     use()

@@ -13,6 +13,8 @@ from typing import Any, Iterator, Optional, Sequence
 
 import numpy as np
 
+from microslip.tables import package
+
 MARKS = ("", "peak", "fold", "optimum", "flat")
 MAY_LACK = ("amplitude_slope_m_per_Hz", "phase_slope_deg_per_Hz")  # an empty cell is NaN
 AGAIN = "the file is damaged; run the scene again"
@@ -44,7 +46,7 @@ def read_summary(path: str) -> dict[str, Any]:
     try:
         with open(path, encoding="utf-8") as file:
             summary = json.load(file)
-    except FileNotFoundError:
+    except (FileNotFoundError, NotADirectoryError):
         raise RunError(f"{shown(path)} is missing; is this the folder of a run?") from None
     except (OSError, ValueError):
         raise RunError(f"{shown(path)}: cannot be read as JSON: {AGAIN}") from None
@@ -130,7 +132,7 @@ def number_in(text: str, path: str, line: int, name: str) -> float:
 @contextlib.contextmanager
 def data_file(path: str) -> Iterator[Any]:
     """An HDF5 file of the run, open for reading. RunError where it, or something in it, is missing or damaged."""
-    import h5py  # runs without maps need none
+    h5py = package("h5py", "curves, peaks, best value and error budget are there")
     if not os.path.exists(path):
         raise RunError(f"{shown(path)} is missing; run the scene again")
     try:
