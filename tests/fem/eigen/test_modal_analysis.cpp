@@ -120,6 +120,13 @@ TEST(ModalAnalysis, AClusterCutByTheLastModeIsCountedWhole) {
   EXPECT_EQ(basis.inertia_count, 2);
 }
 
+// To the last bit on one rank; several add up what they send one another in the order in which it
+// arrives.
+void expect_same(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  const double tolerance = n_ranks() == 1 ? 0.0 : 1e-9;
+  EXPECT_LE((a - b).cwiseAbs().maxCoeff(), tolerance * b.cwiseAbs().maxCoeff());
+}
+
 // Eigenvalues three and more at a time.
 TEST(ModalAnalysis, ACountAtTheEndIsThatAtOnceAndLeavesModesAndSolutionsAsTheyAre) {
   const mesh::Mesh mesh = bar(ElementType::tet10);
@@ -127,11 +134,11 @@ TEST(ModalAnalysis, ACountAtTheEndIsThatAtOnceAndLeavesModesAndSolutionsAsTheyAr
   Structure second(mesh, titanium, {"x0"});
   const ModalBasis at_once = first.solve_modes({.n_modes = 6});
   const ModalBasis uncounted = second.solve_modes({.n_modes = 6, .count = CountTime::at_the_end});
-  EXPECT_EQ(uncounted.shapes, at_once.shapes);
+  expect_same(uncounted.shapes, at_once.shapes);
   EXPECT_EQ(uncounted.inertia_count, -1);
   EXPECT_EQ(second.count_modes(), at_once.inertia_count);
   const Eigen::MatrixXd load = Eigen::MatrixXd::Ones(3 * mesh.n_nodes(), 1);
-  EXPECT_EQ(second.solve_static(load), first.solve_static(load));
+  expect_same(second.solve_static(load), first.solve_static(load));
 }
 
 // Modes of a cube come in groups of one frequency, of which a Krylov method sees some.
