@@ -64,6 +64,7 @@ REST = {
     "blade, 9, stability not judged": blade(9, "[100, 500]", "effects.stability=off"),
     "blade, 1, best value": blade(1, "[100]", search=True),
     "blade of 6 mm, 1 harmonic": blade(1, "[100, 500]", size=6),
+    "blade of 6 mm, iterative modes": blade(1, "[100, 500]", "modes.solver=iterative", size=6),
     "STEP file, 1 harmonic": (f"{SCENES}/step_blade.toml", ["response.preload=[100, 300]", "response.maps=[]"]),
 }
 
