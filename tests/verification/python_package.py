@@ -506,6 +506,11 @@ class Page(Case):
         self.assertEqual(self.measured(on_paper, styles, 718), "exact,avoid,table-header-group,visible")
         beyond_paper = "Math.max(...[...document.querySelectorAll('.wide')].map(t => t.scrollWidth - t.clientWidth))"
         self.assertLessEqual(float(self.measured(on_paper, beyond_paper, 718)), 0)  # [px] of A4
+        columns = "getComputedStyle(document.querySelector('.charts')).gridTemplateColumns.split(' ').length"
+        self.assertEqual(self.measured(on_paper, columns, 718), "2")
+        as_wide = ("(window.dispatchEvent(new Event('beforeprint')), [...document.querySelectorAll('.charts svg')]"
+                   ".map(svg => svg.viewBox.baseVal.width).join())")
+        self.assertRegex(self.measured(text, as_wide, 1200), "^345(,345)*$")  # so that letters keep their size
         split = ("[...document.querySelectorAll('.effects tbody td:not(:last-child)')].filter(cell => { const r = document.createRange();"
                  "r.selectNodeContents(cell); return r.getClientRects().length > cell.textContent.split(' ').length + cell.children.length; })"
                  ".length")

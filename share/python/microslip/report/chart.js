@@ -84,15 +84,16 @@ class Chart {
     this.tip.hidden = true;
     this.listen();
     new ResizeObserver(() => this.draw()).observe(host);
-    window.addEventListener("beforeprint", () => this.draw());
+    window.addEventListener("beforeprint", () => this.draw(Math.min(host.clientWidth, host.closest(".charts") ? 345 : 718)));  // of A4
+    window.addEventListener("afterprint", () => this.draw());
   }
 
   show(series, names) { this.series = series; Object.assign(this.names, names); this.zoom = null; this.draw(); }
 
   seen() { return this.series.filter((s) => !this.hidden.has(s.label)); }
 
-  axes() {
-    const width = this.host.clientWidth || 700, height = Math.round(Math.max(260, Math.min(440, 0.55 * width)));
+  axes(width) {
+    const height = Math.round(Math.max(260, Math.min(440, 0.55 * width)));
     this.size = { width, height, left: 62, right: 12, top: 10, bottom: 44 };
     const all = this.seen();
     const x = this.zoom ? this.zoom[0] : rangeOf(all.flatMap((s) => s.x), this.names.xLog, this.names.xPad ?? 0.01);
@@ -101,8 +102,8 @@ class Chart {
     this.y = new Axis(y, this.names.yLog, height - this.size.bottom, this.size.top);
   }
 
-  draw() {
-    this.axes();
+  draw(wide = this.host.clientWidth || 700) {
+    this.axes(wide);
     const { width, height } = this.size;
     this.svg.replaceChildren();
     this.svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
