@@ -1,7 +1,6 @@
 #include "pipelines/structure/solver_time.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
@@ -11,10 +10,10 @@
 namespace microslip::pipelines {
 
 double modes_seconds(double degrees_of_freedom, const BasisSettings& basis) {
-  constexpr double iteratively = 5.3e-4;  // [s] a degree of freedom, from 31 395 to 326 766 of them
-  const double ten = basis.solver == fem::SolverKind::iterative
-                         ? iteratively * degrees_of_freedom
-                         : 7.2 * std::pow(degrees_of_freedom / 115'000.0, 1.5);
+  // From 31 395 to 998 523 degrees of freedom, share/doc/costs.md.
+  const double n = degrees_of_freedom;
+  const double ten =
+      basis.solver == fem::SolverKind::iterative ? 5.3e-4 * n : 1.5e-5 * n + 3.1e-10 * n * n;
   return ten * std::max(1.0, basis.n_modes / 10.0);
 }
 

@@ -7,9 +7,9 @@
 
 namespace microslip::pipelines {
 
-/// Seconds of one core, right within a factor of two. Directly: with the count that none is missed,
-/// anchored at 115 000 degrees of freedom (factorisation of a sparse three-dimensional mesh: time
-/// as n^1.5). Iteratively: as n, for the steps hardly grow with the mesh.
+/// Seconds of one core, right within a factor of two. Directly: with the count that none is missed;
+/// the factorisations of a three-dimensional mesh grow as n². Iteratively: as n, for the steps
+/// hardly grow with the mesh.
 [[nodiscard]] double modes_seconds(double degrees_of_freedom, const BasisSettings& basis);
 
 /// @throws ExhaustedError  half of the forecast, which it may be wrong by,

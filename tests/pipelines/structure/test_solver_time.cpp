@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <string>
-#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -31,14 +30,18 @@ TEST(SolverTime, GrowsWithTheMeshAndTheNumberOfModes) {
   EXPECT_GT(modes_seconds(1e5, {.n_modes = 40}), 3.0 * modes_seconds(1e5, ten));
 }
 
-TEST(SolverTime, OfTheIterativeWayIsWithinAFactorOfTwoOfWhatItTook) {
+TEST(SolverTime, IsWithinAFactorOfTwoOfWhatWasTaken) {
   const BasisSettings iterative{.solver = fem::SolverKind::iterative};
-  // Without mesh and start, share/doc/costs.md.
-  for (const auto& [degrees_of_freedom, seconds] :
-       {std::pair(31'395.0, 15.3), std::pair(116'622.0, 68.0), std::pair(326'766.0, 171.0)}) {
-    EXPECT_NEAR(std::log2(modes_seconds(degrees_of_freedom, iterative) / seconds), 0.0, 1.0);
-    EXPECT_GT(modes_seconds(degrees_of_freedom, iterative),
-              2.0 * modes_seconds(degrees_of_freedom, ten));
+  struct Taken {
+    double degrees_of_freedom, direct, iterative;  // without mesh and start, share/doc/costs.md
+  };
+  for (const Taken& taken : {Taken{31'395.0, 1.07, 15.3}, Taken{116'622.0, 7.2, 68.0},
+                             Taken{326'766.0, 31.0, 171.0}, Taken{998'523.0, 330.0, 490.0}}) {
+    const auto ratio = [&](const BasisSettings& basis, double seconds) {
+      return modes_seconds(taken.degrees_of_freedom, basis) / seconds;
+    };
+    EXPECT_NEAR(std::log2(ratio(ten, taken.direct)), 0.0, 0.6);
+    EXPECT_NEAR(std::log2(ratio(iterative, taken.iterative)), 0.0, 0.6);
   }
 }
 
