@@ -86,8 +86,7 @@ Moves moves_of_harmonics(const SceneDescription& scene, double tolerance, double
                      .curves = price,
                      .text = fmt::format("harmonics chosen to {:.2g} %", 100.0 * choice),
                      .apply = [choice](SceneDescription& finer) {
-                       finer.settings.harmonics = {
-                           .highest = most_automatic_harmonics, .orders = {}, .tolerance = choice};
+                       finer.settings.harmonics = automatic_harmonics(choice);
                      }});
   }
   return moves;

@@ -20,6 +20,7 @@ enum class ResidualKind : std::uint8_t { none, stiffness, attachment };
 /// Of kinds with a mesh.
 struct BasisSettings {
   int n_modes = 10;
+  double reach = 0.0;  ///< ω [rad/s]: more modes where n_modes end below it
   ResidualKind residual = ResidualKind::attachment;
   std::optional<int> attachment_degree{};  ///< of the tractions; without value: chosen
   fem::SolverKind solver = fem::SolverKind::direct;
@@ -44,8 +45,20 @@ struct HarmonicSettings {
 /// Of the accuracy asked for: what chosen harmonics may leave out.
 inline constexpr double share_of_harmonics = 0.5;
 
+/// Chosen closer than this, harmonics beyond the modes kept matter (theory section 22).
+inline constexpr double close_choice = 0.01;
+
 /// Highest harmonic that "auto" may add.
 inline constexpr int most_automatic_harmonics = 31;
+inline constexpr int most_close_harmonics = 41;
+
+/// Chosen to a tolerance.
+[[nodiscard]] inline HarmonicSettings automatic_harmonics(double tolerance) {
+  const bool close = tolerance < close_choice;
+  return {.highest = close ? most_close_harmonics : most_automatic_harmonics,
+          .orders = {},
+          .tolerance = tolerance};
+}
 
 struct Discretisation {
   BasisSettings basis;

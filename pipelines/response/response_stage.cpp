@@ -374,8 +374,7 @@ CurveResult traced(const ReducedModel& model, const SceneDescription& scene,
       result.curve.points.empty() ? 0 : result.curve.points.front().q.n_harmonics();
   tell_shapes_resonate(model.frequency, model.n_attachment, highest, result.curve);
   const HarmonicSettings& harmonics = scene.settings.harmonics;
-  constexpr double usual_tolerance = 0.01;  // as much as what is not asked does
-  if (harmonics.chosen() && harmonics.tolerance < usual_tolerance) {
+  if (harmonics.chosen() && harmonics.tolerance < close_choice) {
     tell_unasked(options.n_harmonics, harmonics.highest, result.curve);
   }
   add_patch_shares(model, load, result);

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 #include <toml++/toml.h>
 
+#include "contact/phase.hpp"
 #include "pipelines/scene/bar_scene.hpp"
 #include "pipelines/scene/block_scene.hpp"
 #include "pipelines/scene/chain_scene.hpp"
@@ -302,9 +303,28 @@ AccuracyRequest read_accuracy(const SectionReader& s, bool closer_is_asked,
   HarmonicSettings& harmonics = scene.settings.harmonics;
   const double share = share_of_harmonics * accuracy.tolerance;
   if (harmonics.chosen()) {
-    harmonics.tolerance = closer_is_asked ? std::min(harmonics.tolerance, share) : share;
+    const double closer = std::min(harmonics.tolerance, share);
+    harmonics = automatic_harmonics(closer_is_asked ? closer : share);
   }
   return accuracy;
+}
+
+/// The modes of a mesh reach what closely chosen harmonics are asked: beyond them nothing is.
+void let_modes_reach_harmonics(SceneDescription& scene) {
+  const HarmonicSettings& harmonics = scene.settings.harmonics;
+  const double refined = share_of_harmonics * scene.accuracy.tolerance;
+  const double choice = harmonics.chosen() ? harmonics.tolerance : refined;
+  const bool close = choice > 0.0 && choice < close_choice;
+  const bool from_mesh = !std::holds_alternative<ModalModel>(scene.model) &&
+                         given_modes(scene) == nullptr && given_matrices(scene) == nullptr;
+  const auto* ratios = std::get_if<std::vector<double>>(&scene.modes.damping);
+  const bool ratio_each = ratios != nullptr && ratios->size() > 1;
+  BasisSettings& basis = scene.settings.basis;
+  const bool attached = basis.residual == ResidualKind::attachment;
+  if (!scene.response || !close || !from_mesh || ratio_each || !attached) return;
+  const double lowest =
+      std::min(scene.response->frequency_begin_hz, scene.response->frequency_end_hz);
+  basis.reach = most_close_harmonics * contact::two_pi * lowest;
 }
 
 SceneDescription scene_of(toml::table given, const std::string& name,
@@ -335,6 +355,7 @@ SceneDescription scene_of(toml::table given, const std::string& name,
   scene.accuracy =
       read_accuracy(reading.section("accuracy", "accuracy"),
                     static_cast<bool>(reading.given["response"]["harmonic_tolerance"]), scene);
+  let_modes_reach_harmonics(scene);
   scene.complete_toml = scene_as_toml(reading.complete, kind);
   return scene;
 }

@@ -88,8 +88,7 @@ HarmonicSettings harmonics_in(const SectionReader& s) {
     harmonics.orders = read_orders(s, *list);
     harmonics.highest = *std::ranges::max_element(harmonics.orders);
   } else if (node.value<std::string>() == "auto") {
-    harmonics.highest = most_automatic_harmonics;
-    harmonics.tolerance = tolerance;
+    harmonics = automatic_harmonics(tolerance);
   } else if (node.is_integer()) {
     harmonics.highest = s.integer("harmonics");
   } else {

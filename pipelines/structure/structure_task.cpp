@@ -51,8 +51,8 @@ auto members(Is<GivenMatrices> auto& value) {
 
 namespace pipelines {
 auto members(Is<BasisSettings> auto& value) {
-  auto& [n_modes, residual, attachment_degree, solver] = value;
-  return std::tie(n_modes, residual, attachment_degree, solver);
+  auto& [n_modes, reach, residual, attachment_degree, solver] = value;
+  return std::tie(n_modes, reach, residual, attachment_degree, solver);
 }
 auto members(Is<TaskFace> auto& value) {
   auto& [surface, frame, local_stiffness] = value;
@@ -122,13 +122,28 @@ void rotate(fem::Structure& structure, const StructureTask& task, StructureModes
                   u.reshaped(3, task.mesh.n_nodes()).colwise().norm().maxCoeff()));
 }
 
+/// As many as are asked for, and about as many more as reach the frequency asked for.
+fem::ModalBasis modes_that_reach(fem::Structure& structure, const BasisSettings& asked,
+                                 fem::ModalOptions options) {
+  constexpr double growth = 1.5;  // of their number with the frequency, at most
+  constexpr int most = 4;         // times those asked for
+  options.n_modes = asked.n_modes;
+  fem::ModalBasis basis = structure.solve_modes(options);
+  const double top = basis.frequency[basis.frequency.size() - 1];
+  if (!(top < asked.reach)) return basis;
+  const double enough = std::ceil(asked.n_modes * std::pow(asked.reach / top, growth));
+  const double bound =
+      std::min<double>(most * asked.n_modes, static_cast<double>(structure.n_dofs()));
+  options.n_modes = static_cast<Eigen::Index>(std::min(enough, bound));
+  return structure.solve_modes(options);
+}
+
 /// Modes and what stands for the others.
 void find_modes(fem::Structure& structure, const StructureTask& task, fem::CountTime count,
                 StructureModes& result) {
   fem::ModalOptions options;
-  options.n_modes = task.basis.n_modes;
   options.count = count;
-  result.basis = structure.solve_modes(options);
+  result.basis = modes_that_reach(structure, task.basis, options);
   result.residuals.clear();
   if (task.basis.residual == ResidualKind::stiffness) {
     for (const TaskFace& face : task.faces) {
@@ -207,6 +222,11 @@ StructureModes solve(const StructureTask& task) {
   find_modes(structure, task, fem::CountTime::at_the_end, result);
   if (!count_modes(structure, result)) {
     find_modes(structure, task, fem::CountTime::at_once, result);
+  }
+  if (result.basis.n_free() > task.basis.n_modes) {
+    result.notes.push_back(fmt::format(
+        "modes: {} in place of {}: harmonics are to be chosen closely, and reach up to {:.4g} Hz",
+        result.basis.n_free(), task.basis.n_modes, task.basis.reach / (2.0 * std::numbers::pi)));
   }
   result.timings = structure.timings();
   return result;

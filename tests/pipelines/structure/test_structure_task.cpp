@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "contact/phase.hpp"
 #include "pipelines/scene/scene_file.hpp"
 #include "pipelines/structure/structure_stage.hpp"
 #include "pipelines/system/result_cache.hpp"
@@ -111,6 +112,30 @@ TEST(StructureTask, ModesOfAnEarlierRunAreTheSameBits) {
   EXPECT_EQ(taken.attachment_text, solved.attachment_text);
   EXPECT_EQ(taken.n_dofs, solved.n_dofs);
   EXPECT_EQ(taken.timings.assembly, 0.0) << "of another run: nothing to tell of this one";
+}
+
+// Harmonics beyond the modes kept are asked nothing; where they are chosen closely that matters.
+TEST(StructureTask, ModesReachWhatCloselyChosenHarmonicsAreAsked) {
+  const mesh::Mesh mesh = cantilever();
+  const auto n_modes = [&](const std::vector<std::string>& overrides) {
+    const StructureModes modes = solve_structure(mesh, scene_with(overrides));
+    return modes.basis.n_free();
+  };
+  const std::string low = "response.frequency=[\"300 Hz\", \"400 Hz\"]";
+  const std::string close = "response.harmonic_tolerance=\"0.9 %\"";
+  const StructureModes modes = solve_structure(mesh, scene_with({low, close}));
+  EXPECT_GT(modes.basis.n_free(), 4);
+  EXPECT_GE(modes.basis.frequency[modes.basis.n_free() - 1], 41 * contact::two_pi * 300.0);
+  ASSERT_EQ(modes.notes.size(), 1U);
+  EXPECT_NE(modes.notes[0].find("in place of 4"), std::string::npos) << modes.notes[0];
+  EXPECT_GT(n_modes({low, "accuracy.tolerance=\"1.9 %\""}), 4);
+  EXPECT_GT(n_modes({low, "accuracy.tolerance=\"1.9 %\"", "response.harmonics=3"}), 4);
+  EXPECT_EQ(n_modes({close}), 16) << "no more than four times as many";
+  EXPECT_EQ(n_modes({low}), 4);
+  EXPECT_EQ(n_modes({low, "accuracy.tolerance=\"2 %\""}), 4);
+  EXPECT_EQ(n_modes({low, close, "response.harmonics=3"}), 4) << "none are chosen";
+  EXPECT_EQ(n_modes({low, close, "modes.residual=\"none\""}), 4) << "no shapes resonate";
+  EXPECT_EQ(n_modes({low, close, "modes.damping_ratio=[0.1, 0.1, 0.1, 0.1]"}), 4);
 }
 
 // Modes of a cube come in groups of one frequency, of which a Krylov method sees some. The count,
