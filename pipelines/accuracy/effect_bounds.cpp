@@ -124,6 +124,10 @@ bool is_one_of(std::string_view source, std::string_view effect) {
   return false;
 }
 
+bool is_first_of(std::string_view source, std::string_view effect) {
+  return source.substr(0, source.find(together)) == effect;
+}
+
 /// The source of all effects together, of which this is one; empty: there is none.
 std::string joint_source(const std::vector<ErrorRow>& rows, std::string_view effect) {
   const auto row = std::ranges::find_if(rows, [&](const ErrorRow& one) {
@@ -180,14 +184,28 @@ const ErrorRow* largest_indicator(const std::vector<ErrorRow>& rows, const std::
   return largest;
 }
 
+/// The model with all of them could not be made: in words with the first of them.
+void tell_none_together(const std::vector<NoBound>& none, EffectRecord& effect) {
+  const auto why = std::ranges::find_if(none, [&](const NoBound& one) {
+    return one.effect.find(together) != std::string::npos && is_first_of(one.effect, effect.name);
+  });
+  if (why == none.end()) return;
+  effect.reason +=
+      fmt::format("; with {} put back together no bound was made: {}", why->effect, why->why);
+}
+
 /// In words with the first of them.
-void tell_together(const std::vector<ErrorRow>& rows, double tolerance, EffectRecord& effect) {
+void tell_together(const std::vector<ErrorRow>& rows, double tolerance,
+                   const std::vector<NoBound>& none, EffectRecord& effect) {
   const std::string source = joint_source(rows, effect.name);
-  if (source.empty()) return;
+  if (source.empty()) {
+    tell_none_together(none, effect);
+    return;
+  }
   const Told told = told_of(rows, source, tolerance);
   if (!told.anything()) return;
   if (told.words.empty()) effect.bound_together = told.bound;
-  if (!source.starts_with(effect.name)) return;
+  if (!is_first_of(source, effect.name)) return;
   const std::string text = fmt::format("with {} put back together {}", source, joint_text(told));
   effect.reason += "; " + text;
   const bool matters = told.bound.value_or(0.0) > tolerance || told.beside > tolerance;
@@ -219,7 +237,7 @@ void tell_bounds(const std::vector<ErrorRow>& rows, double tolerance,
     if (told.beside > tolerance && told.beside > told.bound.value_or(0.0)) {
       effect.objection = "left out, and " + told.most;
     }
-    tell_together(rows, tolerance, effect);
+    tell_together(rows, tolerance, none, effect);
     if (!told.anything() && !effect.bound) tell_none(none, effect);
   }
 }

@@ -113,6 +113,20 @@ TEST(EffectBounds, EffectsThatHideEachOtherAreObjectedToTogether) {
   EXPECT_EQ(effects[1].objection, "");  // told once
 }
 
+TEST(EffectBounds, AModelWithAllOfThemThatCannotBeSaysWhy) {
+  std::vector<EffectRecord> effects{left_out("moments"), left_out("residual"),
+                                    left_out("roughness")};
+  const std::vector<NoBound> none{{"moments + residual", "they are 3 for 2"}};
+  tell_bounds({{"a", peak_amplitude_goal, "moments", 0.01, ErrorKind::solved, 0.1},
+               {"a", peak_amplitude_goal, "residual", 0.01, ErrorKind::solved, 0.1}},
+              tolerance, effects, none);
+  EXPECT_EQ(effects[0].reason,
+            "; with moments + residual put back together no bound was made: they are 3 for 2");
+  EXPECT_FALSE(effects[0].bound_together.has_value());
+  EXPECT_EQ(effects[1].reason, "");  // told once
+  EXPECT_EQ(effects[2].reason, "");
+}
+
 TEST(EffectBounds, WhatIsSimulatedHasNone) {
   std::vector<EffectRecord> effects{left_out("second_direction")};
   effects[0].simulated = Simulated::yes;
