@@ -72,8 +72,8 @@ void add_model(CurveBudget& budget, const ReducedModel& model, const SceneDescri
   options.search_starts = 0;
   const solver::Scene own = solver_scene(solved, load);
   const solver::Scene other = solver_scene(refined, load);
-  const double factor =
-      frequency_factor(model, richer.model, highest_peak(result.curve)->frequency);
+  const double factor = frequency_factor(model, richer.model, highest_peak(result.curve)->frequency,
+                                         richer.embedding);
   const auto peak =
       solver::peak_elsewhere(own, options, result.curve, {other, richer.embedding, factor});
   if (!peak || !(peak->amplitude > 0.0)) {

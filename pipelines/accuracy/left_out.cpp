@@ -60,44 +60,61 @@ Range range_of(const solver::ContinuationOptions& options) {
   return {low, high};
 }
 
-/// Of a linear limit [rad/s], ascending.
-Eigen::VectorXd resonances(const solver::Scene& scene, LimitName limit) {
+/// Of a linear limit.
+struct Resonances {
+  Eigen::VectorXd frequency;  ///< [rad/s], ascending
+  Eigen::MatrixXd shape;      ///< a column each, in modal coordinates
+};
+
+Resonances resonances(const solver::Scene& scene, LimitName limit) {
   Eigen::MatrixXd total = scene.natural_frequency.array().square().matrix().asDiagonal();
   if (limit == LimitName::stuck && scene.contact) total += scene.contact->stuck_stiffness();
-  const auto squares = contact::symmetric_eigenvalues(total);
-  return squares.value_or(Eigen::VectorXd()).cwiseMax(0.0).cwiseSqrt();
+  const auto pairs = contact::symmetric_pairs(total);
+  if (!pairs) return {};
+  return {pairs->values.cwiseMax(0.0).cwiseSqrt(), pairs->vectors};
+}
+
+/// Of the resonance of the other model that has most of this shape, over this one's: they may stand
+/// in another order there.
+double factor_of(const Resonances& own, Eigen::Index i, const Resonances& there,
+                 const Eigen::MatrixXd& embedding) {
+  if (there.frequency.size() == 0 || !(own.frequency[i] > 0.0)) return 1.0;
+  Eigen::VectorXd shape = own.shape.col(i);
+  if (embedding.size() > 0) shape = embedding * shape;
+  Eigen::Index same = 0;
+  (there.shape.transpose() * shape).cwiseAbs().maxCoeff(&same);
+  return there.frequency[same] / own.frequency[i];
 }
 
 /// Of the resonance nearest to the middle of a range, relative.
-double resonance_change(const solver::Scene& own, const solver::Scene& with, const Range& range,
-                        LimitName limit) {
-  const Eigen::VectorXd without = resonances(own, limit);
-  const Eigen::VectorXd there = resonances(with, limit);
-  if (without.size() == 0) return 0.0;
+double resonance_change(const solver::Scene& own, const solver::OtherModel& with,
+                        const Range& range, LimitName limit) {
+  const Resonances without = resonances(own, limit);
+  if (without.frequency.size() == 0) return 0.0;
   Eigen::Index nearest = 0;
-  (without.array() - 0.5 * (range.low + range.high)).abs().minCoeff(&nearest);
-  if (nearest >= there.size() || !(without[nearest] > 0.0)) return 0.0;
-  return there[nearest] / without[nearest] - 1.0;
+  (without.frequency.array() - 0.5 * (range.low + range.high)).abs().minCoeff(&nearest);
+  return factor_of(without, nearest, resonances(with.scene, limit), with.embedding) - 1.0;
 }
 
 /// Of both limits the one that moves more.
-double resonance_change(const solver::Scene& own, const solver::Scene& with, const Range& range) {
+double resonance_change(const solver::Scene& own, const solver::OtherModel& with,
+                        const Range& range) {
   return larger(resonance_change(own, with, range, LimitName::free),
                 resonance_change(own, with, range, LimitName::stuck));
 }
 
 /// Of the resonance of either limit that is nearest to a peak, the other model's over the own.
-double factor_of_nearest(const solver::Scene& own, const solver::Scene& with, double peak) {
+double factor_of_nearest(const solver::Scene& own, const solver::OtherModel& with, double peak) {
   double distance = not_there;
   double factor = 1.0;
   for (const LimitName limit : {LimitName::free, LimitName::stuck}) {
-    const Eigen::VectorXd without = resonances(own, limit);
-    const Eigen::VectorXd there = resonances(with, limit);
-    for (Eigen::Index i = 0; i < std::min(without.size(), there.size()); ++i) {
-      if (std::abs(without[i] - peak) >= distance) continue;
-      distance = std::abs(without[i] - peak);
-      factor = there[i] / without[i];
-    }
+    const Resonances without = resonances(own, limit);
+    if (without.frequency.size() == 0) continue;
+    Eigen::Index nearest = 0;
+    const double apart = (without.frequency.array() - peak).abs().minCoeff(&nearest);
+    if (apart >= distance) continue;
+    distance = apart;
+    factor = factor_of(without, nearest, resonances(with.scene, limit), with.embedding);
   }
   return factor;
 }
@@ -108,7 +125,7 @@ std::optional<solver::PeakOfBoth> found_elsewhere(const solver::Scene& own,
                                                   const solver::ResponseCurve& curve,
                                                   const solver::OtherModel& with) {
   if (auto both = solver::peak_elsewhere(own, options, curve, with)) return both;
-  const double factor = factor_of_nearest(own, with.scene, highest_peak(curve)->frequency);
+  const double factor = factor_of_nearest(own, with, highest_peak(curve)->frequency);
   return solver::peak_elsewhere(own, options, curve, {with.scene, with.embedding, factor});
 }
 
@@ -132,7 +149,7 @@ Changes at_end(double resonance, double amplitude_there) {
 Changes without_peak(const Comparison& of, const Range& range) {
   const auto both = solver::peak_elsewhere(of.own, of.options, of.curve, of.with);
   const double change = both ? both->other_amplitude / both->amplitude - 1.0 : not_there;
-  return at_end(resonance_change(of.own, of.with.scene, range), change);
+  return at_end(resonance_change(of.own, of.with, range), change);
 }
 
 Changes changes_of(const Comparison& of) {
@@ -155,7 +172,7 @@ Changes changes_of(const Comparison& of) {
       height = larger(height, (both->other_amplitude - both->amplitude) / of.highest);
       place = larger(place, shift * both->amplitude / of.highest);
     } else if (i == 0) {
-      const double shift = resonance_change(of.own, of.with.scene, range);
+      const double shift = resonance_change(of.own, of.with, range);
       const bool leaves =
           !range.is_point() && !range.has((1.0 + shift) * highest_peak(of.curve)->frequency);
       return leaves ? Changes{{peak_outside_goal, shift}} : not_found;
@@ -186,7 +203,7 @@ Changes changes_balanced(const SceneDescription& scene, const ReducedModel& mode
   const solver::ResponsePoint& peak = *highest_peak(result.curve);
   ReducedModel richer = other.model;
   richer.effects.located = richer.effects.located || model.effects.located;
-  const double factor = frequency_factor(model, richer, peak.frequency);
+  const double factor = frequency_factor(model, richer, peak.frequency, other.embedding);
   const solver::Scene own = solver_scene(model, load);
   const solver::Scene with = solver_scene(richer, load_with(richer, model, load));
   const bool all_peaks = other.source.find(together) == std::string::npos;
@@ -251,7 +268,8 @@ Changes changes_of_limit(const SceneDescription& scene, const ReducedModel& mode
     return range.is_point() || point.mark == solver::PointMark::peak;
   };
   const auto shift = [&] {
-    return resonance_change(limit_scene(model), limit_scene(other.model), range, limit);
+    return resonance_change(limit_scene(model), {limit_scene(other.model), other.embedding}, range,
+                            limit);
   };
   if (!is_peak(own)) return at_end(shift(), change);
   if (!is_peak(*with)) return {{peak_outside_goal, shift()}};

@@ -86,11 +86,14 @@ bool is_fitted(const ReducedModel& model) {
 
 }  // namespace
 
-double frequency_factor(const ReducedModel& model, const ReducedModel& other, double peak) {
+double frequency_factor(const ReducedModel& model, const ReducedModel& other, double peak,
+                        const Eigen::MatrixXd& embedding) {
   Eigen::Index nearest = 0;
   (model.frequency.array() - peak).abs().minCoeff(&nearest);
-  const bool usual = nearest < other.frequency.size() && model.frequency[nearest] > 0.0;
-  return usual ? other.frequency[nearest] / model.frequency[nearest] : 1.0;
+  Eigen::Index same = nearest;
+  if (embedding.size() > 0) embedding.col(nearest).cwiseAbs().maxCoeff(&same);
+  const bool usual = same < other.frequency.size() && model.frequency[nearest] > 0.0;
+  return usual ? other.frequency[same] / model.frequency[nearest] : 1.0;
 }
 
 RicherModels richer_models(const ReducedModel& model, const SceneDescription& scene,

@@ -43,8 +43,9 @@ struct RicherModels {
                                          const std::vector<std::string>& sources = {});
 
 /// Of the natural frequency nearest to a peak, the other model's over that of the model at hand.
-/// Models with other modes keep the first of them. @param peak  [rad/s].
+/// @param peak       [rad/s].
+/// @param embedding  as of a RicherModel: the mode that moves most with this one is the same.
 [[nodiscard]] double frequency_factor(const ReducedModel& model, const ReducedModel& other,
-                                      double peak);
+                                      double peak, const Eigen::MatrixXd& embedding);
 
 }  // namespace microslip::pipelines

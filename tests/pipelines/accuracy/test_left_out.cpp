@@ -169,6 +169,23 @@ TEST(LeftOut, WithoutAPeakInTheRangeTheResonanceIsTold) {
   EXPECT_GT(resonance->effect, 0.02);
 }
 
+// With friction along r the lower mode stands above the other, which it does not hold.
+TEST(LeftOut, ResonancesThatChangePlacesAreComparedByTheirShapes) {
+  const Overrides crossing{"modal.frequency=[20, 26]",    "modal.points[0].phi_u_1=0",
+                           "modal.points[0].phi_u_2=0.1", "modal.points[0].phi_v_1=0",
+                           "modal.points[0].phi_w_1=1",   "modal.points[0].phi_w_2=0",
+                           "response.frequency=[30, 34]"};
+  Overrides off = crossing;
+  off.emplace_back("effects.second_direction=off");
+  const Study with = of_point(crossing);
+  ASSERT_GT(stuck_frequencies(with.model).maxCoeff(),
+            1.4 * stuck_frequencies(with.model).minCoeff());
+  const auto rows = rows_of(of_point(off));
+  const ErrorRow* resonance = found(rows, "second_direction", resonance_goal);
+  ASSERT_NE(resonance, nullptr);
+  EXPECT_NEAR(resonance->effect, 0.0, 1e-9);
+}
+
 TEST(LeftOut, APeakThatLeavesTheRangeIsToldByItsFrequency) {
   const Study without = of_point({"response.frequency=[20, 23]", "effects.second_direction=off"});
   ASSERT_EQ(highest_peak(without.curves[0].curve)->mark, solver::PointMark::peak);
