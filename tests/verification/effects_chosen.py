@@ -180,6 +180,19 @@ class IndicatorsAreFooled(unittest.TestCase):
         self.assertGreater(effect(forbidden, "second_direction")["bound"], 0.02)
         self.assertWarned(forbidden, "effects.second_direction: left out")
 
+    def test_friction_along_r_of_modes_that_meet_or_stand_beside_the_range(self):
+        for name in ("veering", "outside"):
+            with self.subTest(name):
+                path, settings = scene(name, **VALUES[name]), [*CASES[name][1], "response.harmonics=3"]
+                self.assertIs(effect(run(name + "_given", path, *settings), "second_direction")["simulated"], True)
+                with_it, without = run(name + "_given", path, *settings), run(name + "_off", path, *settings, "effects.second_direction=off")
+                row = effect(without, "second_direction")
+                change = abs(peaks(with_it)["scale_1"] / peaks(without)["scale_1"] - 1)
+                print(f"{name}: friction along r changes the peak by {100 * change:.2f} %, stated {100 * row['bound']:.2f} %")
+                self.assertGreater(change, 0.02)
+                self.assertGreaterEqual(row["bound"], (1 - 1e-5) * change)
+                self.assertWarned(without, "effects.second_direction: left out")
+
     def test_a_lower_peak_that_an_effect_moves(self):
         # The highest peak moves along p alone and hardly changes; the load of the second one varies.
         path, settings = scene("lower", across=0), ["modal.frequency=[20, 27]", "modal.force_sine=[7, 0.7]", "modal.points[0].phi_u_2=0.1",
@@ -248,6 +261,18 @@ class WhatMattersIsPutBack(unittest.TestCase):
             self.assertGreater(abs(peaks(off)[curve] / amplitude - 1), 0.02)
             print(f"{curve}: without normal motion {100 * (peaks(off)[curve] / amplitude - 1):+.2f} %")
         self.assertEqual(len(auto["error_budget"]), len(on["error_budget"]))  # none is left of the curves without
+
+    def test_a_motion_in_time(self):
+        # One frequency beside the resonance; the force on the second mode nearly balances the stuck contact there.
+        settings = ["response.method=time", "response.frequency=21.862", "modal.points[0].phi_u_2=0.017",
+                    "modal.force_sine=[7, 0.17]", "modal.damping_ratio=[0.01, 3.5e-4]"]
+        auto, on = self.runs("hidden_time", *settings), self.runs("hidden_time_on", *settings, NORMAL)
+        row = effect(auto, "normal_motion")
+        self.assertLess(row["indicator"], row["threshold"])
+        self.assertIs(row["simulated"], True)
+        self.assertGreater(row["switched_on"], 0.02)
+        self.assertIn("switched on after the run", row["reason"])
+        self.assertLess(abs(peaks(auto)["scale_1"] / peaks(on)["scale_1"] - 1), 1e-5)  # begun with another motion
 
     def test_what_matters_on_the_refined_model_alone(self):
         # With one harmonic nothing meets the second mode, and leaving its normal motion out is right.
