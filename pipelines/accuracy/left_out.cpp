@@ -15,7 +15,9 @@
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/response/sampled_curve.hpp"
 #include "pipelines/system/deadline.hpp"
+#include "pipelines/system/interrupt.hpp"
 #include "pipelines/system/scene_error.hpp"
+#include "solver/continuation.hpp"
 #include "solver/richer_peak.hpp"
 
 namespace microslip::pipelines {
@@ -129,6 +131,36 @@ std::optional<solver::PeakOfBoth> found_elsewhere(const solver::Scene& own,
   return solver::peak_elsewhere(own, options, curve, {with.scene, with.embedding, factor});
 }
 
+/// What may be solved again of an effect and a curve [s].
+constexpr double bearable = 60.0;
+
+/// The whole curve with the effect: a peak of one that leans over, or jumps, may lie where nothing
+/// leads to from that without. @return empty: it has no peak, or takes too long.
+std::optional<solver::ResponseCurve> traced_with(const solver::OtherModel& with,
+                                                 const solver::ContinuationOptions& options,
+                                                 const solver::ResponseCurve& own) {
+  if (own.seconds > bearable) return std::nullopt;
+  const auto goes_on = [](const auto&) { return !interrupt_requested() && !cut_short(); };
+  solver::ResponseCurve curve = solver::trace_response(with.scene, options, goes_on);
+  if (!curve.complete || highest_peak(curve)->mark != solver::PointMark::peak) return std::nullopt;
+  return curve;
+}
+
+/// The peak of a curve that is nearest to where one is expected.
+const solver::ResponsePoint* nearest_peak(const solver::ResponseCurve& curve, double expected) {
+  const solver::ResponsePoint* nearest = nullptr;
+  for (const solver::ResponsePoint& point : curve.points) {
+    if (point.mark != solver::PointMark::peak) continue;
+    const auto distance = [&](const auto& one) { return std::abs(one.frequency - expected); };
+    if (nearest == nullptr || distance(point) < distance(*nearest)) nearest = &point;
+  }
+  return nearest;
+}
+
+solver::PeakOfBoth pair_of(const solver::ResponsePoint& own, const solver::ResponsePoint& there) {
+  return {own.frequency, own.amplitude, there.frequency, there.amplitude};
+}
+
 /// One curve of a model, and what is to be had beside it.
 struct Comparison {
   const solver::Scene& own;
@@ -160,10 +192,23 @@ Changes changes_of(const Comparison& of) {
   if (!has_peak && !range.is_point()) return without_peak(of, range);
   double height = 0.0;
   double place = 0.0;
+  std::optional<solver::ResponseCurve> whole;  // with the effect, where nothing less tells
+  double moved = 1.0;                          // frequency of the highest then
   for (std::size_t i = 0; i < (of.all_peaks ? peaks.size() : 1); ++i) {
-    // Beside the highest the whole curve is looked at: it may be another place that is highest with
-    // the effect.
-    const auto both = found_elsewhere(of.own, of.options, i == 0 ? of.curve : peaks[i], of.with);
+    const solver::ResponsePoint& peak = *highest_peak(peaks[i]);
+    std::optional<solver::PeakOfBoth> both;
+    if (whole) {
+      both = pair_of(peak, *nearest_peak(*whole, moved * peak.frequency));
+    } else {  // beside the highest the whole curve is looked at: another place may be highest
+      both = found_elsewhere(of.own, of.options, i == 0 ? of.curve : peaks[i], of.with);
+    }
+    if (!both && i == 0 && !range.is_point()) {
+      whole = traced_with(of.with, of.options, of.curve);
+      if (whole) {
+        both = pair_of(peak, *highest_peak(*whole));
+        moved = both->other_frequency / both->frequency;
+      }
+    }
     if (both) {
       const double shift = both->other_frequency / both->frequency - 1.0;
       if (i == 0 && !range.is_point() && !range.has(both->other_frequency)) {
@@ -177,7 +222,7 @@ Changes changes_of(const Comparison& of) {
           !range.is_point() && !range.has((1.0 + shift) * highest_peak(of.curve)->frequency);
       return leaves ? Changes{{peak_outside_goal, shift}} : not_found;
     } else {  // a lower one that is lost changes by all it has
-      height = larger(height, -peaks[i].points.front().amplitude / of.highest);
+      height = larger(height, -peak.amplitude / of.highest);
     }
   }
   return {{peak_amplitude_goal, height}, {peak_frequency_goal, place}};
@@ -218,7 +263,6 @@ Changes changes_balanced(const SceneDescription& scene, const ReducedModel& mode
 /// What is integrated again: all frequencies where that is bearable, else the one where the motion
 /// is largest.
 SceneDescription to_integrate(const SceneDescription& scene, const CurveResult& result) {
-  constexpr double bearable = 60.0;  // [s], of an effect and curve
   SceneDescription again = scene;
   if (result.curve.seconds <= bearable) return again;
   const double top_hz = highest_peak(result.curve)->frequency / (2.0 * std::numbers::pi);

@@ -186,6 +186,36 @@ TEST(LeftOut, ResonancesThatChangePlacesAreComparedByTheirShapes) {
   EXPECT_NEAR(resonance->effect, 0.0, 1e-9);
 }
 
+// Lightly damped and bent by the closing gap: at the frequency of the one peak the other model has
+// no solution as high.
+TEST(LeftOut, APeakThatIsNotReachedFromThatWithoutIsFoundAlongACurveOfItsOwn) {
+  const Overrides gap{"modal.points[0].phi_v_1=0.5",
+                      "modal.points[0].phi_w_1=0",
+                      "modal.points[0].phi_w_2=0",
+                      "modal.points[0].preload=-10",
+                      "modal.points[0].friction_coefficient=0.2",
+                      "modal.damping_ratio=0.002",
+                      "response.frequency=[15, 60]",
+                      "contact.roughness={ law = \"cubic\", height = \"20 mm\" }"};
+  Overrides off = gap;
+  off.emplace_back("effects.roughness=off");
+  const Study without = of_point(off);
+  const Study with = of_point(gap);
+  const auto rows = rows_of(without);
+  const ErrorRow* height = found(rows, "roughness", peak_amplitude_goal);
+  ASSERT_NE(height, nullptr);
+  const double expected = amplitude(with) / amplitude(without) - 1.0;
+  EXPECT_GT(expected, 0.9);
+  EXPECT_NEAR(height->effect, expected, 1e-6);
+  const ErrorRow* place = found(rows, "roughness", peak_frequency_goal);
+  ASSERT_NE(place, nullptr);
+  EXPECT_NEAR(place->effect,
+              highest_peak(with.curves[0].curve)->frequency /
+                      highest_peak(without.curves[0].curve)->frequency -
+                  1.0,
+              1e-6);
+}
+
 TEST(LeftOut, APeakThatLeavesTheRangeIsToldByItsFrequency) {
   const Study without = of_point({"response.frequency=[20, 23]", "effects.second_direction=off"});
   ASSERT_EQ(highest_peak(without.curves[0].curve)->mark, solver::PointMark::peak);
