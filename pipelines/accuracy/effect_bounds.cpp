@@ -12,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include "pipelines/accuracy/models_left_out.hpp"
+#include "pipelines/text/rounded.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -41,8 +42,7 @@ std::string objection_of(double bound) {
   if (std::isinf(bound)) {
     return "left out, and with it the highest peak is not found from that without";
   }
-  return fmt::format("left out, and having it changes the highest peaks by up to {:.2g} %",
-                     100.0 * bound);
+  return "left out, and having it changes the highest peaks by up to " + percent_text(bound);
 }
 
 /// Of a source and a goal, over all curves.
@@ -56,8 +56,6 @@ const ErrorRow* largest_row(const std::vector<ErrorRow>& rows, std::string_view 
   return largest;
 }
 
-constexpr double percent = 100.0;
-
 /// What having a source changes: the peaks that can be compared, and in words the curves that have
 /// none.
 struct Told {
@@ -70,7 +68,8 @@ struct Told {
 
 std::string change_text(double change) {
   return std::isinf(change) ? "is not found with it"
-                            : fmt::format("changes by {:+.2g} % with it", percent * change);
+                            : fmt::format("changes by {}{} with it", change < 0.0 ? "" : "+",
+                                          percent_text(change));
 }
 
 std::string words_of(const ErrorRow& row, std::string_view goal) {
@@ -111,7 +110,7 @@ Told told_of(const std::vector<ErrorRow>& rows, const std::string& source, doubl
   }
   if (told.words.empty() || !told.bound) return told;
   told.words.push_back(
-      fmt::format("peaks that can be compared change by {:.2g} % at most", percent * *told.bound));
+      fmt::format("peaks that can be compared change by {} at most", percent_text(*told.bound)));
   return told;
 }
 
@@ -139,7 +138,7 @@ std::string joint_source(const std::vector<ErrorRow>& rows, std::string_view eff
 std::string joint_text(const Told& told) {
   if (!told.words.empty()) return fmt::format("{}", fmt::join(told.words, ", "));
   if (std::isinf(*told.bound)) return "the highest peak is not found from that without";
-  return fmt::format("the highest peaks change by up to {:.2g} %", percent * *told.bound);
+  return "the highest peaks change by up to " + percent_text(*told.bound);
 }
 
 /// What a model can be solved with in place of without, settings of the scene alone apart.
@@ -169,9 +168,8 @@ std::string switched_on_text(double change) {
   if (std::isinf(change)) {
     return "switched on after the run: the highest peak with it was not found from that without";
   }
-  return fmt::format(
-      "switched on after the run: left out it would have changed the peak by {:.2g} %",
-      100.0 * change);
+  return "switched on after the run: left out it would have changed the peak by " +
+         percent_text(change);
 }
 
 /// Of the motion along all curves, and the curve where it is largest.

@@ -16,13 +16,12 @@
 #include "pipelines/effects/effect_sizes.hpp"
 #include "pipelines/system/scene_error.hpp"
 #include "pipelines/text/effect_table.hpp"
+#include "pipelines/text/rounded.hpp"
 
 namespace microslip::pipelines {
 namespace {
 
 using enum Simulated;
-
-constexpr double in_percent = 100.0;
 
 bool can_have_residual(const SceneDescription& scene) {
   return as_written(scene).settings.basis.residual != ResidualKind::none;
@@ -199,8 +198,8 @@ std::vector<std::string> effect_lines(const std::vector<EffectRecord>& effects) 
                                 number(effect.threshold, ""), number(effect.seconds, " s"),
                                 effect.reason));
     if (effect.bound && std::isfinite(*effect.bound)) {
-      lines.back() += fmt::format("; having it would change the highest peaks by {:.2g} % at most",
-                                  in_percent * *effect.bound);
+      lines.back() += fmt::format("; having it would change the highest peaks by {} at most",
+                                  percent_text(*effect.bound));
     }
     if (!effect.objection.empty()) lines.back() += "; but " + effect.objection;
   }

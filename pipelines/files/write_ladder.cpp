@@ -8,7 +8,7 @@
 namespace microslip::pipelines {
 namespace {
 
-std::string percent_text(const std::optional<double>& error) {
+std::string signed_percent(const std::optional<double>& error) {
   constexpr double percent = 100.0;
   return error ? fmt::format("{:+.3g} %", percent * *error) : "–";
 }
@@ -27,7 +27,7 @@ std::string ladder_text(const std::string& knob, const std::vector<RungResult>& 
   for (const RungResult& rung : rungs) {
     text += fmt::format("{:<18}{:<16}{:>10.2f}{:>6}{:>14.6g}{:>12}{:>12}{:>7}\n", rung.value,
                         rung.curve, rung.seconds, rung.runs, rung.amplitude,
-                        percent_text(rung.true_error), percent_text(rung.estimated_error),
+                        signed_percent(rung.true_error), signed_percent(rung.estimated_error),
                         rung.order ? fmt::format("{:.1f}", *rung.order) : "–");
   }
   return text;

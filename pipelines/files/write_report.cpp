@@ -344,8 +344,8 @@ std::string budget_text(const JsonEntry& run) {
 std::string bound_text(const JsonEntry& effect) {
   if (!effect.has("bound")) return {};
   if (!effect.at("bound").is_number()) return "; the highest peak is not found with it";
-  return fmt::format("; having it would change the highest peaks by {:.2g} % at most",
-                     100.0 * effect.number("bound"));
+  return fmt::format("; having it would change the highest peaks by {} at most",
+                     percent_text(effect.number("bound")));
 }
 
 /// Which effects were simulated, and why; empty: not told.

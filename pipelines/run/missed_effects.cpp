@@ -13,6 +13,7 @@
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/run/solved_again.hpp"
 #include "pipelines/system/deadline.hpp"
+#include "pipelines/text/rounded.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -50,8 +51,8 @@ std::string names_of(const std::vector<MissedEffect>& missed) {
   names.reserve(missed.size());
   for (const MissedEffect& one : missed) {
     names.push_back(std::isinf(one.change) ? one.name + " (the highest peak is lost with it)"
-                                           : fmt::format("{} ({:.2g} % of a highest peak)",
-                                                         one.name, 100.0 * one.change));
+                                           : fmt::format("{} ({} of a highest peak)", one.name,
+                                                         percent_text(one.change)));
   }
   return fmt::format("{}", fmt::join(names, ", "));
 }

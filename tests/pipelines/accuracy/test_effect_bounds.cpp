@@ -52,6 +52,7 @@ TEST(EffectBounds, WhatMattersIsObjectedToAndWhatDoesNotAnswersTheIndicator) {
   EXPECT_NE(objection(-0.3).find("30 %"), std::string::npos) << objection(-0.3);
   EXPECT_NE(objection(std::numeric_limits<double>::infinity()).find("not found"),
             std::string::npos);
+  EXPECT_NE(objection(1.05).find("by up to 105 %"), std::string::npos) << objection(1.05);
   EXPECT_EQ(objection(0.01), "");
 }
 
