@@ -233,6 +233,8 @@ solver::ContinuationOptions options_of_both(const SceneDescription& scene,
                                             const ReducedModel& model, const ReducedModel& richer) {
   const bool sampled = contact::is_sampled(richer.patches, richer.effects);
   solver::ContinuationOptions options = continuation_options(scene, sampled ? richer : model);
+  const ReducedModel& other = sampled ? model : richer;
+  if (continuation_options(scene, other).orders.empty()) options.orders.clear();  // all, for both
   options.search_starts = 0;
   return options;
 }

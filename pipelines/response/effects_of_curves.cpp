@@ -18,7 +18,7 @@ bool is_limit(const CurveSummary& curve) {
 
 void tell_harmonics(const SceneDescription& scene, const std::vector<CurveSummary>& curves,
                     EffectRecord& effect) {
-  if (!scene.response || !scene.settings.harmonics.chosen()) return;
+  if (!scene.response) return;
   std::set<int> orders;
   std::size_t most = 0;
   double left_out = 0.0;
@@ -28,6 +28,13 @@ void tell_harmonics(const SceneDescription& scene, const std::vector<CurveSummar
     left_out = std::max(left_out, curve.largest_left_out);
   }
   if (orders.empty()) return;
+  if (!scene.settings.harmonics.chosen()) {
+    const bool odd = orders.contains(3) && !orders.contains(2);
+    if (odd && scene.settings.harmonics.orders.empty()) {
+      effect.reason += "; even ones are zero under constant loads, and no unknowns";
+    }
+    return;
+  }
   effect.simulated = *orders.rbegin() > 1 ? Simulated::yes : Simulated::no;
   effect.reason =
       fmt::format("{}: {}, of the orders {}; those left out change them by {:.2g} % at most",

@@ -209,6 +209,26 @@ int most_meant(const ReducedModel& model, const ResponseDescription& response, i
   return std::clamp(static_cast<int>(orders), std::min(least, highest), highest);
 }
 
+bool has_constant_load(const contact::Patch& patch, const ContactEffects& effects) {
+  return !effects.normal_motion || patch.cells.shapes.v.isZero(0.0) ||
+         patch.cells.stiffness.col(1).isZero(0.0);
+}
+
+/// Forces of contact change sign with the motion, and the excitation half a period later: so does
+/// the motion (theory 13).
+bool has_odd_motions(const ReducedModel& model) {
+  return model.force_static.isZero(0.0) &&
+         std::ranges::all_of(model.patches, [&](const contact::Patch& patch) {
+           return patch.rules.plain() && has_constant_load(patch, model.effects);
+         });
+}
+
+std::vector<int> odd_orders(int highest) {
+  std::vector<int> orders;
+  for (int k = 1; k <= highest; k += 2) orders.push_back(k);
+  return orders;
+}
+
 }  // namespace
 
 solver::ContinuationOptions continuation_options(const SceneDescription& scene,
@@ -221,6 +241,8 @@ solver::ContinuationOptions continuation_options(const SceneDescription& scene,
   options.n_harmonics =
       harmonics.chosen() ? most_meant(model, response, harmonics.highest) : harmonics.highest;
   options.orders = harmonics.orders;
+  const bool given = options.orders.empty() && !harmonics.chosen();
+  if (given && has_odd_motions(model)) options.orders = odd_orders(harmonics.highest);
   options.harmonic_tolerance = harmonics.tolerance;
   options.search_starts = asked_starts(scene);
   options.judge_stability = scene.judges_stability;
