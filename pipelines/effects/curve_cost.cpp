@@ -27,16 +27,17 @@ constexpr double of_one_frequency = 25.0;
 constexpr double of_a_check = 30.0;  // of the peak, with eight harmonics more than were given
 constexpr double of_a_start = 20.0;
 constexpr double of_error_rows =
-    250.0;  // of a curve: five richer models, one of four times the points
+    300.0;  // of a curve: five richer models, one of four times the points
 constexpr double curves_of_a_search = 30.0;  // for a best value, as many evaluations
 constexpr double searches_of_a_bracket = 4.0;
 constexpr double frequencies_of_a_search = 14.0;  // of a range (solver/curve/branch_search.hpp)
 
 constexpr double points_of_a_curve = 95.0;
 constexpr int harmonics_of_a_choice = 7;       // about, where contact slips
-constexpr double period_map = 2e-3;            // of a point of a curve in scenes of few states
+constexpr double period_map = 2.2e-4;          // of a point in scenes of few states, over harmonics
 constexpr double states_of_a_period_map = 16;  // at most (solver/stability/stability.hpp)
 constexpr double factorisation = 6e-11;        // over the cube of the unknowns
+constexpr double few_factorisations = 0.5;     // of evaluations that are cheap without derivatives
 // Hill's exponents of a point, over the cube of the unknowns up to where states are condensed; a
 // part of what evaluations take.
 constexpr double hill = 2e-10;
@@ -82,29 +83,51 @@ double n_points(const SceneDescription& scene, bool areas) {
   return n;
 }
 
+/// Of numbers: even harmonics are no unknowns then (continuation_options()).
+bool has_odd_motions(const SceneDescription& scene, const CurveEffects& effects) {
+  const auto* modal = std::get_if<ModalModel>(&scene.model);
+  if (modal == nullptr || effects.roughness || effects.rate_dependence) return false;
+  if (modal->force_static.size() > 0 && !modal->force_static.isZero(0.0)) return false;
+  return setting_of(scene, "normal_motion") == "off" || modal->shapes.v.isZero(0.0) ||
+         std::ranges::none_of(modal->points,
+                              [](const auto& point) { return point.normal_stiffness > 0.0; });
+}
+
 Size size_of(const SceneDescription& scene, const CurveEffects& effects) {
   Size size;
   size.points = n_points(scene, effects.areas);
   size.modes = n_free_modes(scene) + (effects.residual ? n_shapes(scene) : 0.0);
   const HarmonicSettings& given = scene.settings.harmonics;
-  const int n_given = given.orders.empty() ? given.highest : static_cast<int>(given.orders.size());
+  int n_given = given.orders.empty() ? given.highest : static_cast<int>(given.orders.size());
   const bool chosen = effects.chosen_harmonics || (effects.several_harmonics && n_given == 1);
+  if (given.orders.empty() && has_odd_motions(scene, effects)) n_given = (n_given + 1) / 2;
   size.harmonics = chosen ? harmonics_of_a_choice : effects.several_harmonics ? n_given : 1;
   return size;
 }
 
-/// Force and Jacobian of one point, with its share of the step,
-/// by the method that contact would choose.
+bool is_plain(const CurveEffects& effects) {
+  return !effects.second_direction && !effects.roughness && !effects.rate_dependence;
+}
+
+/// As contact would choose.
+contact::Method method_of(const CurveEffects& effects, const Size& size) {
+  return contact::method_for(std::llround(size.points), is_plain(effects), size.harmonics);
+}
+
+/// Force and Jacobian of one point, with its share of the step.
 double point_seconds(const CurveEffects& effects, const Size& size) {
   const bool rough = effects.roughness;
-  const bool plain = !effects.second_direction && !rough && !effects.rate_dependence;
+  const bool plain = is_plain(effects);
   const double more = size.harmonics - 1;  // harmonics
+  const double square = size.harmonics * size.harmonics;
   const double both = rough && effects.rate_dependence ? 1.25 : 1.0;
-  switch (contact::method_for(std::llround(size.points), plain, size.harmonics)) {
+  const double in_plane =
+      effects.second_direction && (rough || effects.rate_dependence) ? 1.9 : 1.0;
+  switch (method_of(effects, size)) {
     case contact::Method::closed_form:
       return 1.0 * microsecond;
     case contact::Method::lanes:
-      return (plain ? 7.0 + 0.9 * more : both * (rough ? 21.0 : 16.0) + 1.6 * more) * microsecond;
+      return (plain ? 0.5 + 0.1 * square : in_plane * (3.2 + 0.24 * square)) * microsecond;
     case contact::Method::point_methods:
       break;
   }
@@ -133,7 +156,9 @@ double cube_of_unknowns(const Size& size) {
 }
 
 double evaluation_seconds(const CurveEffects& effects, const Size& size) {
-  return size.points * point_seconds(effects, size) + factorisation * cube_of_unknowns(size);
+  const bool sampled = method_of(effects, size) == contact::Method::lanes;
+  return size.points * point_seconds(effects, size) +
+         (sampled ? few_factorisations : 1.0) * factorisation * cube_of_unknowns(size);
 }
 
 /// Of one point of a curve, beside its evaluations: where the multipliers of its period are looked
@@ -142,7 +167,7 @@ double stability_seconds(const CurveEffects& effects, const Size& size) {
   if (size.harmonics == 1) return 0.0;
   const bool in_time =
       !effects.second_direction && 2.0 * size.modes + size.points <= states_of_a_period_map;
-  if (in_time) return effects.stability ? period_map : 0.0;
+  if (in_time) return effects.stability ? size.harmonics * period_map : 0.0;
   return effects.stability ? 0.0 : -std::min(hill * cube_of_unknowns(size), hill_of_many);
 }
 
