@@ -43,8 +43,8 @@ int run_study(const SceneDescription& scene, const RunOptions& options) {
     solution.curves = trace_family(solution.model, scene, options.jobs, record);
     record.keep_choices(scene);
     record.stage("accuracy");
-    record.progress().expect(
-        accuracy_seconds(solution.model, scene, degrees_of_freedom(solution), options.jobs));
+    record.progress().expect(accuracy_seconds(solution.model, scene, solution.curves,
+                                              degrees_of_freedom(solution), options.jobs));
     solution.budgets = budgets_of(solution.model, scene, solution.structure.get(), options.jobs,
                                   solution.curves, record.progress());
     keep_budgets(solution, record);

@@ -33,7 +33,8 @@ constexpr double searches_of_a_bracket = 4.0;
 constexpr double frequencies_of_a_search = 14.0;  // of a range (solver/curve/branch_search.hpp)
 
 constexpr double points_of_a_curve = 95.0;
-constexpr int harmonics_of_a_choice = 7;       // about, where contact slips
+constexpr int harmonics_of_a_choice = 7;  // about, where contact slips
+constexpr int harmonics_of_a_choice_on_a_mesh = 9;
 constexpr double period_map = 2.2e-4;          // of a point in scenes of few states, over harmonics
 constexpr double states_of_a_period_map = 16;  // at most (solver/stability/stability.hpp)
 constexpr double factorisation = 6e-11;        // over the cube of the unknowns
@@ -101,7 +102,9 @@ Size size_of(const SceneDescription& scene, const CurveEffects& effects) {
   int n_given = given.orders.empty() ? given.highest : static_cast<int>(given.orders.size());
   const bool chosen = effects.chosen_harmonics || (effects.several_harmonics && n_given == 1);
   if (given.orders.empty() && has_odd_motions(scene, effects)) n_given = (n_given + 1) / 2;
-  size.harmonics = chosen ? harmonics_of_a_choice : effects.several_harmonics ? n_given : 1;
+  const int n_chosen =
+      scene.contacts.empty() ? harmonics_of_a_choice : harmonics_of_a_choice_on_a_mesh;
+  size.harmonics = chosen ? n_chosen : effects.several_harmonics ? n_given : 1;
   return size;
 }
 

@@ -3,8 +3,11 @@
 /// and what `run` says of the time left where nothing else tells.
 #pragma once
 
+#include <vector>
+
 #include "pipelines/description/scene_description.hpp"
 #include "pipelines/model/reduced_model.hpp"
+#include "pipelines/response/run_results.hpp"
 
 namespace microslip::pipelines {
 
@@ -24,8 +27,12 @@ namespace microslip::pipelines {
 /// Of the mesh alone, before there is one; 0: not known.
 [[nodiscard]] double mesh_seconds(const SceneDescription& scene);
 
-/// Of the stage `accuracy`, errors of curves. @param degrees_of_freedom  0 without a mesh.
+/// Of the stage `accuracy`, errors of curves.
+/// @param curves  as they were solved: where they took long, with many harmonics, so do their
+///                errors.
+/// @param degrees_of_freedom  0 without a mesh.
 [[nodiscard]] double accuracy_seconds(const ReducedModel& model, const SceneDescription& scene,
+                                      const std::vector<CurveResult>& curves,
                                       double degrees_of_freedom, int jobs);
 
 /// Of the stage `optimum`. @param bracket  whether its bracket is solved for.

@@ -1,0 +1,41 @@
+#include "pipelines/run/stage_seconds.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "pipelines/scene/scene_file.hpp"
+
+namespace microslip::pipelines::test_stage_seconds {
+namespace {
+
+std::vector<CurveResult> curves(double seconds, int n) {
+  CurveResult one;
+  one.load = 100.0;
+  one.curve.seconds = seconds;
+  return {static_cast<std::size_t>(n), one};
+}
+
+// How many harmonics matter, and how long Newton's method takes, is known then.
+TEST(StageSeconds, ErrorsOfCurvesThatTookLongTakeLong) {
+  const SceneDescription scene = read_scene(MICROSLIP_SCENES "/blade_to_ground.toml", {});
+  const auto forecast = [&](double seconds, int jobs) {
+    return accuracy_seconds({}, scene, curves(seconds, 3), 6000.0, jobs);
+  };
+  EXPECT_DOUBLE_EQ(forecast(1e-3, 1), accuracy_seconds({}, scene, {}, 6000.0, 1));
+  EXPECT_GT(forecast(20.0, 1), 30.0);
+  EXPECT_LT(forecast(20.0, 1), 70.0);
+  EXPECT_LT(forecast(20.0, 2), 0.6 * forecast(20.0, 1));
+}
+
+TEST(StageSeconds, MotionsInTimeAndLimitsHaveNoSuchErrors) {
+  const SceneDescription scene = read_scene(MICROSLIP_SCENES "/blade_to_ground.toml", {});
+  std::vector<CurveResult> others = curves(100.0, 2);
+  others[0].integrated = true;
+  others[1].load = LimitName::stuck;
+  EXPECT_DOUBLE_EQ(accuracy_seconds({}, scene, others, 6000.0, 1),
+                   accuracy_seconds({}, scene, {}, 6000.0, 1));
+}
+
+}  // namespace
+}  // namespace microslip::pipelines::test_stage_seconds
