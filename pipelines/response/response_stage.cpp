@@ -223,9 +223,11 @@ bool has_odd_motions(const ReducedModel& model) {
          });
 }
 
+/// With the highest, so that tables have the columns that are asked for.
 std::vector<int> odd_orders(int highest) {
   std::vector<int> orders;
-  for (int k = 1; k <= highest; k += 2) orders.push_back(k);
+  for (int k = 1; k < highest; k += 2) orders.push_back(k);
+  orders.push_back(highest);
   return orders;
 }
 

@@ -1,8 +1,9 @@
 /// @file
 /// One set of harmonics for a peak, chosen by what leaving harmonics out does to it.
 ///
-///   estimate   all harmonics that the set lacks, up to the highest allowed, by one step in the model that has them
-///              (enrichment.hpp): their effects are added up by size, no sign may hide another
+///   estimate   all harmonics that the set lacks, up to the highest allowed, by one step in the
+///              model that has them (enrichment.hpp): their effects are added up by size, no sign
+///              may hide another
 ///   add        those whose effects together pass a quarter of the tolerance, and all that may
 ///              resonate: kω within a few half bandwidths of a mode, free, stuck or held as at the
 ///              peak, whose response to the force already there would be more than the tolerance.
