@@ -49,8 +49,8 @@ inline constexpr double share_of_harmonics = 0.5;
 inline constexpr double close_choice = 0.01;
 
 /// Highest harmonic that "auto" may add.
-inline constexpr int most_automatic_harmonics = 31;
-inline constexpr int most_close_harmonics = 41;
+inline constexpr int most_automatic_harmonics = 30;
+inline constexpr int most_close_harmonics = 40;
 
 /// Chosen to a tolerance.
 [[nodiscard]] inline HarmonicSettings automatic_harmonics(double tolerance) {

@@ -265,7 +265,7 @@ constexpr KeySpec damping_key{
 
 constexpr std::array mode_keys{
     KeySpec{"count", integer, "", "10", 1, 1000, false,
-            "number of modes; where harmonics are chosen to less than 1 % as many more as reach 41 "
+            "number of modes; where harmonics are chosen to less than 1 % as many more as reach 40 "
             "times the range, at most four times as many"},
     damping_key,
     KeySpec{"residual", text, "", "\"attachment\"", 0, 0, false,

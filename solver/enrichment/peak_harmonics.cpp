@@ -15,7 +15,6 @@
 namespace microslip::solver {
 namespace {
 
-constexpr int highest_probed = 30;  // forces of contact fall with k², motions with k² more
 // Of the force scale: what symmetry leaves of a harmonic is some 1e-15 of it.
 constexpr double silent = 1e-12;
 // Shares of the tolerance.
@@ -56,7 +55,7 @@ PeakHarmonicsChoice::Estimate PeakHarmonicsChoice::estimate(const HarmonicSet& s
   Estimate result;
   if (!scene_.contact) return result;
   HarmonicBalance coarse(scene_, set);
-  const int highest = std::max(set.highest(), std::min(highest_probed, range_.n_harmonics));
+  const int highest = std::max(set.highest(), range_.n_harmonics);
   const Harmonics force = coarse.contact_force(peak.point.x, peak.point.parameter, highest);
   const std::vector<int> orders = beyond(set, force, peak.scaling.residual);
   if (orders.empty()) return result;
