@@ -220,6 +220,7 @@ std::string scene_template(std::string_view kind, const TemplateTexts& values,
       kind);
   TemplateTexts all = values;
   all.insert(examples_of(kind).begin(), examples_of(kind).end());
+  all.emplace("accuracy.tolerance", "\"2 %\"");
   for (const std::string_view section : sections_of_kind(kind)) {
     add_section(text, section, kind, all, remarks);
   }
