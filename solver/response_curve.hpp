@@ -105,7 +105,8 @@ struct ResponseCurve {
       0;                ///< of the step control: what the contact does at a place (step_states.hpp)
   long state_cuts = 0;  ///< steps it has cut
   double seconds = 0.0;
-  /// Where harmonics were chosen and the curve has fewer, or the choice was cut short.
+  /// Its highest peak with more harmonics, where they were chosen and the curve has fewer, or the
+  /// choice was cut short.
   SettledPeak settled_peak;
 };
 

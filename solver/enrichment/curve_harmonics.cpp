@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
+#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -78,6 +80,29 @@ std::optional<HarmonicSet> stepping_stone(const HarmonicSet& least, const Harmon
 
 bool is_stopped(const ContinuationOptions& range) { return range.stop && range.stop(); }
 
+/// What the highest place of a curve is with more harmonics. @param near  nullptr: not known yet.
+SettledPeak settled_at(const SettledPeak* near, PeakHarmonicsChoice& choice, const HarmonicSet& set,
+                       const LocalPeak& peak) {
+  if (near != nullptr) return *near;
+  const PeakHarmonics own = choice.choose(set, peak, set);
+  return own.peak ? own.richest : SettledPeak{};
+}
+
+/// With more harmonics the peak of a curve may be followed to a branch beside it.
+void tell_peak_beside(const SettledPeak& found, double tolerance, ResponseCurve& curve) {
+  const SettledPeak& own = curve.settled_peak;
+  const double shift = std::abs(found.frequency / own.frequency - 1.0);
+  const bool is_own = !(found.amplitude > (1.0 + tolerance) * own.amplitude && shift > tolerance);
+  if (!curve.complete || !(own.amplitude > 0.0) || is_own) return;
+  std::ostringstream text;
+  text.precision(4);
+  text << (curve.message.empty() ? "" : "; ") << "a solution beside the curve has a peak of "
+       << found.amplitude << " m at " << 0.5 * found.frequency / std::numbers::pi
+       << " Hz: harmonics were chosen for it as well, and response.search_starts looks for its "
+          "branch";
+  curve.message += text.str();
+}
+
 void count(CurveHarmonics& sum, const PeakWork& work) {
   sum.iterations += work.iterations;
   sum.contact_evaluations += work.contact_evaluations;
@@ -148,8 +173,14 @@ CurveHarmonics check_harmonics(const Scene& scene, const ContinuationOptions& ra
                                ResponseCurve& curve) {
   CurveHarmonics checked{set};
   PeakHarmonicsChoice choice(scene, range);
+  bool is_first = !known.empty();
   for (const Place& place : places_of(scene, range, set, curve)) {
     const std::optional<double> distance = distance_to(known, place.peak, range.harmonic_tolerance);
+    if (is_first) {
+      checked.highest = settled_at(nearest_of(known, place.frequency, range.harmonic_tolerance),
+                                   choice, set, place.peak);
+    }
+    is_first = false;
     const double left_out = distance ? *distance : choice.left_out(set, place.peak);
     checked.left_out = std::max(checked.left_out, left_out);
     for (ResponsePoint& point : curve.points) {
@@ -168,6 +199,7 @@ ResponseCurve trace_with_chosen(const Scene& scene, const ContinuationOptions& r
   CurveHarmonics work{
       .set = set, .iterations = curve.iterations, .contact_evaluations = curve.contact_evaluations};
   bool is_given = false;  // traced by `trace`
+  SettledPeak sought;     // the highest one that harmonics were chosen for
   const auto add = [&](const CurveHarmonics& done) {
     work.iterations += done.iterations;
     work.contact_evaluations += done.contact_evaluations;
@@ -194,12 +226,14 @@ ResponseCurve trace_with_chosen(const Scene& scene, const ContinuationOptions& r
       set = chosen.set;
       curve = std::move(richer);
     }
-    curve.settled_peak = chosen.highest;
     const CurveHarmonics checked = check_harmonics(scene, range, set, chosen.known, curve);
+    curve.settled_peak = checked.highest.amplitude > 0.0 ? checked.highest : chosen.highest;
+    sought = chosen.highest;
     add(checked);
     if (!is_new) break;
     if (checked.settled || is_stopped(range) || curve.diagnosis == Diagnosis::interrupted) break;
   }
+  tell_peak_beside(sought, range.harmonic_tolerance, curve);
   curve.iterations = work.iterations;
   curve.contact_evaluations = work.contact_evaluations;
   if (!work.settled && !curve.points.empty()) {

@@ -40,7 +40,7 @@ struct CurveHarmonics {
 
 /// What a set leaves out at the high points of its curve; the peaks of the curve keep their own.
 /// @param known  peaks with more harmonics: a peak of the curve that is one of them is compared
-///               with it, of others it is estimated.
+///               with it, of others it is estimated; the highest is solved for with more then.
 [[nodiscard]] CurveHarmonics check_harmonics(const Scene& scene, const ContinuationOptions& range,
                                              const HarmonicSet& set,
                                              const std::vector<SettledPeak>& known,
