@@ -291,7 +291,7 @@ void trace_about_peak(const ReducedModel& model, double load, solver::Continuati
   const auto begin = std::chrono::steady_clock::now();
   const solver::ResponseCurve curve =
       solver::trace_response(balanced_scene(model, load, options), options,
-                             [](const auto&) { return !interrupt_requested() && !cut_short(); });
+                             [&options](const auto&) { return !options.stop(); });
   richer.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   const solver::ResponsePoint* peak = highest_peak(curve);
   if (!curve.complete || peak == nullptr || peak->mark != solver::PointMark::peak) return;
@@ -304,8 +304,8 @@ void trace_about_peak(const ReducedModel& model, double load, solver::Continuati
 }  // namespace
 
 void check_harmonics(ReducedModel model, const SceneDescription& scene, double load,
-                     CurveResult& result) {
-  const solver::ResponseCurve& curve = result.curve;
+                     CurveResult& result, const std::function<bool()>& stop) {
+  solver::ResponseCurve& curve = result.curve;
   const int highest = harmonics_to_check(model, scene);
   if (highest == 0 || !curve.certificate.empty() || curve.points.empty()) return;
   if (curve.diagnosis == solver::Diagnosis::interrupted || interrupt_requested() || cut_short())
@@ -315,12 +315,18 @@ void check_harmonics(ReducedModel model, const SceneDescription& scene, double l
   solver::ContinuationOptions options = continuation_options(scene, model);
   options.search_starts = 0;
   options.judge_stability = false;
+  options.stop = [&stop, others = options.stop] { return stop() || others(); };
   result.richer = solver::richer_peak(solver_scene(model, load), options, curve, highest);
   const bool missed = result.richer && !result.richer->change;
   if (missed && options.frequency_begin != options.frequency_end) {
     options.n_harmonics = highest;
     options.orders.clear();
     trace_about_peak(model, load, options, result);
+  }
+  if (result.richer && !result.richer->change && options.stop()) {
+    result.richer.reset();  // not known, which is another thing than not found
+    curve.message += fmt::format("{}stopped before its harmonics were checked",
+                                 curve.message.empty() ? "" : "; ");
   }
 }
 
@@ -426,7 +432,9 @@ CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene
     return result;
   }
   const auto* load = std::get_if<double>(&result.load);
-  if (load != nullptr && !result.integrated) check_harmonics(model, scene, *load, result);
+  if (load != nullptr && !result.integrated) {
+    check_harmonics(model, scene, *load, result, [&limit] { return limit.is_over(); });
+  }
   return result;
 }
 

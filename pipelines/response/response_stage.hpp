@@ -75,9 +75,12 @@ void require_held(const ReducedModel& model, const SceneDescription& scene);
                                                          const Eigen::MatrixXd& embedding);
 
 /// Solves the highest peak with more harmonics than were given,
-/// where the contact is not proved linear: result.richer.
-void check_harmonics(ReducedModel model, const SceneDescription& scene, double load,
-                     CurveResult& result);
+/// where the contact is not proved linear: result.richer. When it is stopped the message of the
+/// curve says so instead.
+/// @param stop  asked between its steps.
+void check_harmonics(
+    ReducedModel model, const SceneDescription& scene, double load, CurveResult& result,
+    const std::function<bool()>& stop = [] { return false; });
 
 /// Contact maps the scene asks for on this curve: at its highest peak, its folds, or all solutions
 /// of the branch at given frequencies (numbered in branch order).

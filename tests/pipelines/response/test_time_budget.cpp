@@ -61,6 +61,30 @@ TEST(TimeBudget, EndsAChoiceOfHarmonics) {
   EXPECT_EQ(cut.curve.diagnosis, solver::Diagnosis::budget);
 }
 
+TEST(TimeBudget, EndsTheCheckOfHarmonics) {
+  const SceneDescription scene = parse_scene(chain, "scene.toml", "/nowhere", {});
+  ReducedModel model = reduced_model(scene);
+  model.effects = contact_effects(model, scene);
+  CurveResult result = curve_of("off", "harmonic_balance", "1");
+  ASSERT_TRUE(result.richer && result.richer->change);
+  SceneDescription checked = scene;
+  checked.settings.harmonics.highest = 1;
+  checked.settings.harmonics.orders.clear();
+  checked.settings.harmonics.tolerance = 0.0;
+  checked.settings.harmonics.checked = true;
+  int questions = 0;
+  check_harmonics(model, checked, std::get<double>(result.load), result, [&] {
+    ++questions;
+    return true;
+  });
+  EXPECT_GT(questions, 0);
+  EXPECT_FALSE(result.richer);  // not known, where "not found" would ask for more harmonics
+  EXPECT_TRUE(result.curve.complete);
+  EXPECT_NE(result.curve.message.find("stopped before its harmonics were checked"),
+            std::string::npos)
+      << result.curve.message;
+}
+
 TEST(TimeBudget, IsAnHourUnlessItIsGiven) {
   EXPECT_EQ(parse_scene(chain, "scene.toml", "/nowhere", {}).response->time_budget, 3600.0);
 }
