@@ -156,6 +156,23 @@ std::string restless_text(const CurveResult& result) {
       result.name, where);
 }
 
+std::string many_folds_text(const CurveResult& result) {
+  constexpr std::ptrdiff_t many = 20;
+  const auto& points = result.curve.points;
+  const std::ptrdiff_t n_folds =
+      std::ranges::count(points, solver::PointMark::fold, &solver::ResponsePoint::mark);
+  if (n_folds < many) return {};
+  const auto n_unstable = static_cast<double>(
+      std::ranges::count(points, solver::Stability::unstable, &solver::ResponsePoint::stability));
+  return fmt::format(
+      "curve {}: {} folds, {:.0f} % of its points unstable: many solutions share a frequency, as "
+      "where light damping, or friction that falls with the speed, lets higher harmonics resonate; "
+      "more damping or fewer response.harmonics have fewer of them, response.method = \"time\" "
+      "over "
+      "a narrow range shows what a sweep meets",
+      result.name, n_folds, 100.0 * n_unstable / static_cast<double>(points.size()));
+}
+
 std::string left_out_text(const CurveResult& result) {
   if (!result.richer || result.curve.points.empty()) return {};
   const solver::RicherPeak& richer = *result.richer;

@@ -27,6 +27,9 @@ namespace microslip::pipelines {
 /// period than the force, or none. Empty: nowhere.
 [[nodiscard]] std::string restless_text(const CurveResult& result);
 
+/// Where a curve has so many folds that no sweep follows them. Empty: it has fewer.
+[[nodiscard]] std::string many_folds_text(const CurveResult& result);
+
 /// What the harmonics given leave out at the highest peak, if that is 2 % or more. Empty: less,
 /// or not known.
 [[nodiscard]] std::string left_out_text(const CurveResult& result);

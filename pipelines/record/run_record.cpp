@@ -378,6 +378,7 @@ void RunRecord::keep_curve(const CurveResult& result, const ReducedModel& model)
   }
   warn_of_unsolved(result);
   if (const std::string text = restless_text(result); !text.empty()) progress_.warning(text);
+  if (const std::string text = many_folds_text(result); !text.empty()) progress_.warning(text);
   if (const std::string text = left_out_text(result); !text.empty() && !refines_) {
     progress_.warning(text);
   }

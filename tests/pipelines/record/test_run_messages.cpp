@@ -1,0 +1,32 @@
+// What a curve is warned of.
+#include "pipelines/record/run_messages.hpp"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace microslip::pipelines::test_run_messages {
+namespace {
+
+/// Of as many folds, every second point unstable.
+CurveResult folded(int n_folds) {
+  CurveResult result;
+  result.name = "folded";
+  for (int i = 0; i < 2 * n_folds; ++i) {
+    solver::ResponsePoint& point = result.curve.points.emplace_back();
+    point.mark = i % 2 == 0 ? solver::PointMark::fold : solver::PointMark::peak;
+    point.stability = i % 2 == 0 ? solver::Stability::unstable : solver::Stability::stable;
+  }
+  return result;
+}
+
+TEST(RunMessages, ManyFoldsAreToldWithARemedy) {
+  EXPECT_TRUE(many_folds_text(folded(4)).empty());
+  const std::string text = many_folds_text(folded(52));
+  EXPECT_NE(text.find("curve folded: 52 folds, 50 % of its points unstable"), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("response.method"), std::string::npos) << text;
+}
+
+}  // namespace
+}  // namespace microslip::pipelines::test_run_messages
