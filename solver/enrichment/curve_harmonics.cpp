@@ -25,22 +25,27 @@ constexpr std::array stepping_stones{3, 7};
 struct Place {
   LocalPeak peak;
   double frequency = 0.0;
+  bool is_told = false;  // the highest peak of the curve, else its highest end
 };
 
-/// What the answer of a curve is read from.
+/// What the answer of a curve is read from: what is told of it, then what is higher or nearly so.
 std::vector<Place> places_of(const Scene& scene, const ContinuationOptions& range,
                              const HarmonicSet& set, const ResponseCurve& curve) {
   const ContinuationOptions given = with_harmonics(range, set);
   HarmonicBalance balance(scene, set);
   std::vector<Place> places;
-  double highest = 0.0;
-  for (const HighPoint& high : high_points(scene, curve, given)) {
-    highest = std::max(highest, high.point.amplitude);
-    const bool counts = high.point.amplitude > of_interest * highest && places.size() < most_places;
-    if (!counts) break;
-    auto place = high.place == PeakPlace::peak ? local_peak(balance, high.point)
-                                               : local_end(balance, high.point, given);
-    if (place) places.push_back({std::move(*place), high.point.frequency});
+  const std::vector<HighPoint> high = high_points(scene, curve, given);
+  const HighPoint* told = highest_of_curve(high);
+  const auto add = [&](const HighPoint& one) {
+    auto place = one.place == PeakPlace::peak ? local_peak(balance, one.point)
+                                              : local_end(balance, one.point, given);
+    if (place) places.push_back({std::move(*place), one.point.frequency, &one == told});
+  };
+  if (told != nullptr) add(*told);
+  for (const HighPoint& one : high) {
+    const bool counts = one.point.amplitude > of_interest * high.front().point.amplitude;
+    if (!counts || places.size() == most_places) break;
+    if (&one != told) add(one);
   }
   return places;
 }
@@ -76,6 +81,14 @@ std::optional<HarmonicSet> stepping_stone(const HarmonicSet& least, const Harmon
     if (stone.count() > now.count() && 2 * stone.count() <= wanted.count()) return stone;
   }
   return std::nullopt;
+}
+
+/// With few harmonics a curve may lack the peak it has with those chosen, or have one more: of an
+/// end nothing follows for a peak.
+SettledPeak settled_of(const CurveHarmonics& chosen, const ResponseCurve& curve) {
+  const bool has_peak = std::ranges::any_of(
+      curve.points, [](const ResponsePoint& point) { return point.mark == PointMark::peak; });
+  return has_peak == chosen.is_peak ? chosen.highest : SettledPeak{};
 }
 
 bool is_stopped(const ContinuationOptions& range) { return range.stop && range.stop(); }
@@ -131,7 +144,6 @@ CurveHarmonics choose_harmonics(const Scene& scene, const ContinuationOptions& r
     chosen.left_out = 0.0;
     chosen.known.clear();
     chosen.highest = {};
-    bool is_first = true;
     bool is_lost = false;
     for (const Place& place : places_of(scene, range, of_now, *now)) {
       // Next to an internal resonance a peak is several, close together.
@@ -147,8 +159,10 @@ CurveHarmonics choose_harmonics(const Scene& scene, const ContinuationOptions& r
       chosen.left_out = std::max(chosen.left_out, found.left_out);
       chosen.settled = chosen.settled && found.settled;
       if (found.peak) chosen.known.push_back(found.richest);
-      if (found.peak && is_first) chosen.highest = found.richest;
-      is_first = false;
+      if (found.peak && place.is_told) {
+        chosen.highest = found.richest;
+        chosen.is_peak = place.peak.place == PeakPlace::peak;
+      }
       is_lost = is_lost || !found.peak;
     }
     count(chosen, choice.work());
@@ -173,14 +187,12 @@ CurveHarmonics check_harmonics(const Scene& scene, const ContinuationOptions& ra
                                ResponseCurve& curve) {
   CurveHarmonics checked{set};
   PeakHarmonicsChoice choice(scene, range);
-  bool is_first = !known.empty();
   for (const Place& place : places_of(scene, range, set, curve)) {
     const std::optional<double> distance = distance_to(known, place.peak, range.harmonic_tolerance);
-    if (is_first) {
+    if (place.is_told && !known.empty()) {
       checked.highest = settled_at(nearest_of(known, place.frequency, range.harmonic_tolerance),
                                    choice, set, place.peak);
     }
-    is_first = false;
     const double left_out = distance ? *distance : choice.left_out(set, place.peak);
     checked.left_out = std::max(checked.left_out, left_out);
     for (ResponsePoint& point : curve.points) {
@@ -220,15 +232,16 @@ ResponseCurve trace_with_chosen(const Scene& scene, const ContinuationOptions& r
       if (!richer.complete &&
           is_stopped(range)) {  // a whole curve is worth more than half of a better one
         work.settled = false;
-        curve.settled_peak = chosen.highest;
+        curve.settled_peak = settled_of(chosen, curve);
         break;
       }
       set = chosen.set;
       curve = std::move(richer);
     }
     const CurveHarmonics checked = check_harmonics(scene, range, set, chosen.known, curve);
-    curve.settled_peak = checked.highest.amplitude > 0.0 ? checked.highest : chosen.highest;
-    sought = chosen.highest;
+    curve.settled_peak =
+        checked.highest.amplitude > 0.0 ? checked.highest : settled_of(chosen, curve);
+    sought = chosen.is_peak ? chosen.highest : SettledPeak{};
     add(checked);
     if (!is_new) break;
     if (checked.settled || is_stopped(range) || curve.diagnosis == Diagnosis::interrupted) break;

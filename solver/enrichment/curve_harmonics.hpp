@@ -25,7 +25,8 @@ struct CurveHarmonics {
   bool settled = true;    ///< false: a high point may need harmonics beyond those
   long iterations = 0;
   long contact_evaluations = 0;
-  SettledPeak highest{};                  ///< that of the curve's highest place; amplitude 0: lost
+  SettledPeak highest{};                  ///< the curve's highest peak, else end; amplitude 0: lost
+  bool is_peak = false;                   ///< and not an end
   std::vector<SettledPeak> known{};       ///< high points solved for with more than the set has
   std::optional<ResponseCurve> traced{};  ///< with the set, where the choice has needed it
 };

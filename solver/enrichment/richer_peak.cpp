@@ -22,17 +22,6 @@ double energy_of(HarmonicBalance& balance, const LocalPeak& peak) {
   return period_energy(balance, peak.point.x, peak.point.parameter).friction;
 }
 
-/// The highest peak of the curve itself; without one an end of the range.
-/// What stopped somewhere has neither.
-std::optional<HighPoint> top_of(const std::vector<HighPoint>& high) {
-  for (const PeakPlace place : {PeakPlace::peak, PeakPlace::range_end}) {
-    for (const HighPoint& point : high) {
-      if (point.place == place && !point.detached) return point;
-    }
-  }
-  return std::nullopt;
-}
-
 /// A peak that leaves the range is still one.
 ContinuationOptions widened(ContinuationOptions range) {
   constexpr double beyond = 0.1;
@@ -65,8 +54,9 @@ struct Top {
 
 std::optional<Top> solved_top(const Scene& scene, HarmonicBalance& balance,
                               const ContinuationOptions& range, const ResponseCurve& curve) {
-  const std::optional<HighPoint> top = top_of(high_points(scene, curve, range));
-  if (!top) return std::nullopt;
+  const std::vector<HighPoint> high = high_points(scene, curve, range);
+  const HighPoint* top = highest_of_curve(high);
+  if (top == nullptr) return std::nullopt;
   std::optional<LocalPeak> peak = top->place == PeakPlace::range_end
                                       ? local_end(balance, top->point, range)
                                       : local_peak(balance, top->point);

@@ -86,4 +86,13 @@ std::vector<HighPoint> high_points(const Scene& scene, const ResponseCurve& curv
   return high;
 }
 
+const HighPoint* highest_of_curve(const std::vector<HighPoint>& high) {
+  for (const PeakPlace place : {PeakPlace::peak, PeakPlace::range_end}) {
+    for (const HighPoint& point : high) {
+      if (point.place == place && !point.detached) return &point;
+    }
+  }
+  return nullptr;
+}
+
 }  // namespace microslip::solver

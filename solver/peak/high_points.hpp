@@ -25,4 +25,8 @@ struct HighPoint {
 [[nodiscard]] std::vector<HighPoint> high_points(const Scene& scene, const ResponseCurve& curve,
                                                  const ContinuationOptions& range);
 
+/// What is told of the curve itself: its highest peak, without one its highest end of the range;
+/// what stopped somewhere has neither. @return in `high`, or nullptr.
+[[nodiscard]] const HighPoint* highest_of_curve(const std::vector<HighPoint>& high);
+
 }  // namespace microslip::solver

@@ -204,5 +204,20 @@ TEST(CurveHarmonics, ASingleFrequencyChoosesForItself) {
   EXPECT_GT(chosen.points.at(0).orders.size(), 1U);
 }
 
+// What more harmonics make of a curve is told of its highest peak, not of an end that is higher.
+TEST(CurveHarmonics, SettlesThePeakBesideAHigherEnd) {
+  const Scene scene = with_events(tests::chain_scene(10.0));
+  ContinuationOptions range = choosing(1e-2);
+  range.frequency_begin = two_pi * 23.0;  // on the flank of the first resonance
+  range.frequency_end = two_pi * 60.0;
+  const auto curve = trace_response(scene, range);
+  ASSERT_TRUE(curve.complete) << curve.diagnosis;
+  const auto peak = std::ranges::find(curve.points, PointMark::peak, &ResponsePoint::mark);
+  ASSERT_NE(peak, curve.points.end());
+  ASSERT_GT(curve.points.front().amplitude, 5.0 * peak->amplitude);
+  EXPECT_NEAR(curve.settled_peak.frequency, peak->frequency, 1e-2 * peak->frequency);
+  EXPECT_NEAR(curve.settled_peak.amplitude, peak->amplitude, 1e-2 * peak->amplitude);
+}
+
 }  // namespace
 }  // namespace microslip::solver::test_peak_harmonics
