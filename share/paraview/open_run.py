@@ -94,6 +94,7 @@ def show_motion(file, view):
     table.RescaleTransferFunction(0.0, largest or 1.0)
     bar = simple.GetScalarBar(table, view)
     bar.Title, bar.ComponentTitle = "displacement [m]", f"drawn × {warp.ScaleFactor:.3g}"
+    bar.AutomaticLabelFormat, bar.LabelFormat, bar.RangeLabelFormat = 0, "%.2e", "%.2e"
     bar.TitleColor = bar.LabelColor = [0.1, 0.1, 0.1]
     shown.SetScalarBarVisibility(view, True)
     annotate(source, file, view)
