@@ -209,7 +209,7 @@ class Damaged(Case):
         path = os.path.join(folder, "summary.json")
         with open(path, encoding="utf-8") as file:
             summary = json.load(file)
-        for content, complaint in (("{", "JSON"), ("[]", "no summary of a run"), ("{\"curves\": [{}]}", r"curves\[0\] lacks")):
+        for content, complaint in (("{\n\"a\": [", r"summary.json:2:\d+: .* JSON"), ("[]", "no summary of a run"), ("{\"curves\": [{}]}", r"curves\[0\] lacks")):
             with open(path, "w", encoding="utf-8") as file:
                 file.write(content)
             with self.assertRaisesRegex(microslip.RunError, complaint):
@@ -318,6 +318,15 @@ class Page(Case):
 
     def data(self, text):
         return json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', text, re.S)[1])
+
+    def test_the_page_tells_the_best_value_with_other_contact_data(self):
+        entries = self.run_.optimum["bracket"]
+        self.assertEqual(len(entries), 4)
+        rows = re.findall(r"<tr><td>([a-z ]+) × ([\d.]+).*?</td><td class=n>(.*?)</td>", self.page(self.run_.folder))
+        self.assertEqual([(name.replace(" ", "_"), float(factor)) for name, factor, _ in rows],
+                         [(entry["parameter"], entry["factor"]) for entry in entries])
+        for (*_, value), entry in zip(rows, entries):
+            self.assertAlmostEqual(float(value) / entry["value"], 1.0, delta=0.1)
 
     def test_the_page_holds_sections_curves_and_budget(self):
         text = self.page(self.run_.folder)

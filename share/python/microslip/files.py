@@ -48,6 +48,8 @@ def read_summary(path: str) -> dict[str, Any]:
             summary = json.load(file)
     except (FileNotFoundError, NotADirectoryError):
         raise RunError(f"{shown(path)} is missing; is this the folder of a run?") from None
+    except json.JSONDecodeError as error:
+        raise RunError(f"{shown(path)}:{error.lineno}:{error.colno}: cannot be read as JSON: {AGAIN}") from None
     except (OSError, ValueError):
         raise RunError(f"{shown(path)}: cannot be read as JSON: {AGAIN}") from None
     if not isinstance(summary, dict) or not isinstance(summary.get("curves"), list):

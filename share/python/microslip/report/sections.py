@@ -51,7 +51,7 @@ def told_with(bar: Mapping[str, Any], goal: str, value: Any, digits: int = 5) ->
 def percent(value: Any, digits: int = 2) -> str:
     if not is_number(value):
         return "–"
-    return f"{100 * value:.{digits}g} %" if value >= 1e-5 else "< 0.001 %"
+    return f"{number(100 * value, digits)} %" if value >= 1e-5 else "< 0.001 %"
 
 
 def value_text(value: Any, unit: str = "") -> str:
@@ -185,6 +185,37 @@ def peaks(run: Run, data: Data) -> str:
     return table(head, rows, (0, 1, 2, 3, 4, 6), "peaks") if rows else ""
 
 
+def told_like(bar: Mapping[str, Any], goal: str, value: Any, digits: int = 5) -> str:
+    """A value to the digits that the bar of a goal allows, without its half width."""
+    first, _, rest = told_with(bar, goal, value, digits).partition(" ± ")
+    return first.lstrip("(") + rest.partition(")")[2]
+
+
+def bracket_row(entry: Mapping[str, Any], best: Mapping[str, Any], unit: str) -> list[str]:
+    """A best value in the digits of the one with the data as given."""
+    bar = best.get("bar") or {}
+    label = "as given" if entry is best else f"{entry['parameter'].replace('_', ' ')} × {plain(entry['factor'])}"
+    wider = entry.get("range") if entry.get("range_widened") else None
+    label += f" (searched wider: {number(wider[0])} … {number(wider[1])})" if wider else ""
+    objection = entry.get("objection") or "not found"
+    label += "" if entry.get("found") else f" (lowest{', ' if objection == 'not found' else ': '}{objection})"
+    value = " … ".join(told_like(bar, "best_value", one) for one in entry.get("flat") or [entry["value"]])
+    amplitude = told_like(bar, "best_amplitude", entry["amplitude_m"] / LENGTH[unit])
+    return [escape(label), value, amplitude + (" (end of the range)" if entry.get("at") == "range_end" else ""),
+            told_like(bar, "best_frequency", entry["frequency_Hz"], 6)]
+
+
+def bracket(best: Mapping[str, Any], unit: str) -> str:
+    """The best value once more with other contact data; empty where that was not searched."""
+    entries = best.get("bracket") or []
+    left_out = "".join(f"<p class=note>Not varied: {escape(reason)}.</p>" for reason in best.get("bracket_left_out") or [])
+    if not entries:
+        return left_out
+    value = "preload [N]" if best["parameter"] == "preload" else f"{escape(best['parameter'])} (SI)"
+    rows = [bracket_row(entry, best, unit) for entry in (best, *entries)]
+    return table(["contact data", f"best {value}", f"peak [{unit}]", "at [Hz]"], rows, (1, 2, 3)) + left_out
+
+
 def optimum(run: Run, data: Data) -> str:
     best = run.optimum
     if not best:
@@ -195,15 +226,15 @@ def optimum(run: Run, data: Data) -> str:
     amplitude = best["amplitude_m"] / LENGTH[data["unit"]]
     return (f"<p class=best>Best {escape(best['parameter'])}: <b>{told_with(bar, 'best_value', best['value'])}{unit}</b>, "
             f"peak {told_with(bar, 'best_amplitude', amplitude)} {data['unit']} at "
-            f"{told_with(bar, 'best_frequency', best['frequency_Hz'], 6)} Hz.</p>")
+            f"{told_with(bar, 'best_frequency', best['frequency_Hz'], 6)} Hz.</p>" + bracket(best, data["unit"]))
 
 
 def response(run: Run, data: Data) -> str:
     if not data["curves"]:
         return ""
     chart = ('<div class=tools data-tools=curves></div><div class=chart data-chart=curves></div>'
-             '<p class=note>Drag to zoom, double-click for the whole range, point at a curve for its numbers, click a name to '
-             'hide it. Solid: stable; dashed: unstable; dotted and pale: stability not judged. ● peak, ◇ fold, ☆ the peak with more '
+             '<p class=note><span class=hands>Drag to zoom, double-click for the whole range, point at a curve for its numbers, click a '
+             'name to hide it. </span>Solid: stable; dashed: unstable; dotted and pale: stability not judged. ● peak, ◇ fold, ☆ the peak with more '
              'harmonics, ✕ ends here; crosses: error of the peak.</p>')
     many = any(len(set(entry["frequency"])) > 1 for entry in data["curves"])
     return optimum(run, data) + (chart if many else "") + peaks(run, data)
@@ -221,16 +252,17 @@ def maps(run: Run, data: Data) -> str:
     if not data["maps"]:
         return ""
     return ('<div class=tools data-tools=maps></div><div class=map data-chart=maps></div>'
-            '<p class=note>The slider goes over one period; 0° is where the excitation passes zero upwards.</p>'
+            '<p class=note><span class=hands>The slider goes over one period; </span>0° is where the excitation passes zero upwards.</p>'
             '<h3 data-title="point-loop"></h3><div class=loop data-chart="point-loop"></div>'
-            '<p class=note>The point with the ring: at first where most energy is dissipated; click on the map for another.</p>'
+            '<p class=note>The point with the ring: at first where most energy is dissipated<span class=hands>; click on the map for '
+            'another</span>.</p>'
             '<h3>Hysteresis of the whole patch</h3><div class=loop data-chart=loop></div>'
             '<p class=note>Friction force over the mean relative displacement, both along p, at the phases of the map; the point is '
             'where the slider stands. Where the whole face moves alike, the area of the loop is the energy of a period.</p>')
 
 
 def signed(value: float) -> str:
-    return f"{value:+.2g}".replace("-", "−")
+    return ("−" if value < 0 else "+") + number(abs(value), 2)
 
 
 def bars_of(rows: Sequence[Mapping[str, Any]]) -> str:
