@@ -11,6 +11,7 @@
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/response/sampled_curve.hpp"
 #include "pipelines/system/deadline.hpp"
+#include "pipelines/text/rounded.hpp"
 #include "solver/point_shift.hpp"
 #include "solver/richer_peak.hpp"
 
@@ -168,7 +169,7 @@ void add_certificate(CurveBudget& budget, const CurveResult& result,
 
 std::string energy_text(const CurveBudget& budget, const std::string& curve) {
   if (!budget.energy_ratio) return "friction dissipates nothing there";
-  return fmt::format("dissipated energy ± {:.2g} %", 100.0 * bar_of(budget.rows, curve, energy));
+  return "dissipated energy ± " + percent_text(bar_of(budget.rows, curve, energy));
 }
 
 /// Of one source and goal, over all curves that know it.
@@ -241,7 +242,6 @@ CurveBudget error_budget(const ReducedModel& model, const SceneDescription& scen
 
 std::string budget_text(const CurveBudget& budget) {
   if (budget.rows.empty()) return {};
-  constexpr double percent = 100.0;
   const std::string& curve = budget.rows.front().curve;
   std::vector<ErrorRow> parts;
   for (const ErrorRow& row : budget.rows) {
@@ -255,13 +255,13 @@ std::string budget_text(const CurveBudget& budget) {
                        curve);
   }
   std::string text =
-      fmt::format("curve {}: peak ± {:.2g} %, its frequency ± {:.2g} %, {}:", curve,
-                  percent * bar_of(budget.rows, curve, amplitude),
-                  percent * bar_of(budget.rows, curve, frequency), energy_text(budget, curve));
+      fmt::format("curve {}: peak ± {}, its frequency ± {}, {}:", curve,
+                  percent_text(bar_of(budget.rows, curve, amplitude)),
+                  percent_text(bar_of(budget.rows, curve, frequency)), energy_text(budget, curve));
   constexpr std::size_t most = 3;
   for (std::size_t i = 0; i < std::min(most, parts.size()); ++i) {
-    text += fmt::format("{} {} {:+.2g} %", i > 0 ? "," : "", parts[i].source,
-                        percent * parts[i].effect);
+    text += fmt::format("{} {} {}", i > 0 ? "," : "", parts[i].source,
+                        signed_percent_text(parts[i].effect));
     if (parts[i].kind == ErrorKind::borrowed) text += " (as of another curve)";
   }
   if (!budget.unknown.empty()) {

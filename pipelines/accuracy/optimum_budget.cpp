@@ -84,6 +84,13 @@ double shift(const Values& amplitudes, const Values& effect) {
   return std::expm1(turn > 0.0 ? std::clamp(way, -farthest, farthest) : farthest);
 }
 
+/// Of the lowest peak, which is that of a neighbour where the effect there makes it so.
+double lowest_changed(const Values& amplitudes, const Values& effect) {
+  Values raised = amplitudes;
+  for (std::size_t i = 0; i < raised.size(); ++i) raised[i] *= 1.0 + std::max(effect[i], -0.99);
+  return std::ranges::min(raised) / amplitudes[middle] - 1.0;
+}
+
 /// Of one goal by source.
 std::map<std::string, Effects> by_source(const std::vector<CurveBudget>& budgets,
                                          const char* goal) {
@@ -140,7 +147,7 @@ CurveBudget combined(const std::vector<CurveBudget>& budgets, const Values& ampl
       result.rows.push_back({optimum_name, goal, source, effect, ErrorKind::solved, seconds});
     };
     add(best_value_goal, shift(amplitudes_given, *known));
-    add(best_amplitude_goal, (*known)[middle]);
+    add(best_amplitude_goal, lowest_changed(amplitudes_given, *known));
     add(best_frequency_goal, frequencies.at(source)[middle].value_or(0.0));
     if (!result.energy_ratio) continue;
     const auto of_energy = energies.find(source);

@@ -16,7 +16,8 @@ namespace microslip::pipelines {
 ///                                                            neighbours,
 ///
 /// exact where two peaks cross at p, twice as far as it goes where one has a minimum there; at most
-/// to the neighbours. Relative effects, goals best_value, best_amplitude, best_frequency and, where
+/// to the neighbours. The lowest amplitude becomes that of the lowest of the three peaks A (1 + e).
+/// Relative effects, goals best_value, best_amplitude, best_frequency and, where
 /// friction dissipates there, best_energy.
 /// @param jobs  curves side by side, ≥ 1.
 /// @return no rows: another number than the preload is searched, nothing is found, branches that no

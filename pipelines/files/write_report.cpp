@@ -262,7 +262,6 @@ std::string curves_text(const JsonEntry& run) {
 
 /// Effects of one goal on one curve, the largest first: "harmonics +50 %, mesh +5.5 %".
 std::string effects_text(const JsonEntry& run, const std::string& curve, const std::string& goal) {
-  constexpr double percent = 100.0;
   constexpr double least = 1e-5;  // of the goal: what no table needs
   std::vector<std::pair<double, std::string>> parts;
   for (const JsonEntry& row : run.list("error_budget")) {
@@ -276,7 +275,7 @@ std::string effects_text(const JsonEntry& run, const std::string& curve, const s
       parts, [](const auto& a, const auto& b) { return std::abs(a.first) > std::abs(b.first); });
   std::string text;
   for (const auto& [effect, source] : parts) {
-    text += fmt::format("{}{} {:+.2g} %", text.empty() ? "" : ", ", source, percent * effect);
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", source, signed_percent_text(effect));
   }
   return text.empty() ? "–" : text;
 }
@@ -296,21 +295,19 @@ std::string energy_cells(const JsonEntry& run, const JsonEntry& curve) {
   if (!curve.at("peak").has("dissipated_energy_J")) return "– | – | –";  // of an earlier program
   if (!bar.has(dissipated_energy_goal)) return "nothing | – | –";
   const double width = bar.number(dissipated_energy_goal);
-  return fmt::format("{} | {:.2g} % | {}",
-                     with_digits_of(curve.at("peak").number("dissipated_energy_J"), width),
-                     100.0 * width, effects_text(run, curve.text("name"), dissipated_energy_goal));
+  return fmt::format(
+      "{} | {} | {}", with_digits_of(curve.at("peak").number("dissipated_energy_J"), width),
+      percent_text(width), effects_text(run, curve.text("name"), dissipated_energy_goal));
 }
 
 /// What was asked for, what was reached and by what; empty without a tolerance.
 std::string accuracy_text(const JsonEntry& run) {
   if (!run.has("accuracy")) return {};
-  constexpr double percent = 100.0;
   const JsonEntry accuracy = run.at("accuracy");
   std::string text =
-      fmt::format("Asked for {:.2g} % of every peak, ", percent * accuracy.number("asked"));
-  text += accuracy.has("reached")
-              ? fmt::format("reached {:.2g} %", percent * accuracy.number("reached"))
-              : "reached what is not known of every curve";
+      fmt::format("Asked for {} of every peak, ", percent_text(accuracy.number("asked")));
+  text += accuracy.has("reached") ? "reached " + percent_text(accuracy.number("reached"))
+                                  : "reached what is not known of every curve";
   for (const JsonEntry& step : accuracy.list("refined")) text += "; then with " + step.as_text();
   return text + ".\n\n";
 }
@@ -318,7 +315,6 @@ std::string accuracy_text(const JsonEntry& run) {
 /// How far the peaks can be trusted; empty without a budget.
 std::string budget_text(const JsonEntry& run) {
   if (!run.has("error_budget") || run.list("error_budget").empty()) return {};
-  constexpr double percent = 100.0;
   std::string text =
       "\n## How far the peaks can be trusted\n\n" + accuracy_text(run) +
       "What would be added to amplitude and dissipated energy of the highest peak if one choice "
@@ -330,12 +326,12 @@ std::string budget_text(const JsonEntry& run) {
     if (!curve.has("bar") || !curve.has("peak")) continue;
     const JsonEntry bar = curve.at("bar");
     const int digits = static_cast<int>(curve.at("digits").integer("peak_amplitude"));
-    text +=
-        fmt::format("| {} | {:.{}g} | {:.2g} % | {:.2g} % | {} | {} | {} |\n", curve.text("name"),
-                    curve.at("peak").number("amplitude_m"), digits,
-                    percent * bar.number("peak_amplitude"), percent * bar.number("peak_frequency"),
-                    effects_text(run, curve.text("name"), peak_amplitude_goal),
-                    energy_cells(run, curve), not_known_text(bar));
+    text += fmt::format("| {} | {:.{}g} | {} | {} | {} | {} | {} |\n", curve.text("name"),
+                        curve.at("peak").number("amplitude_m"), digits,
+                        percent_text(bar.number("peak_amplitude")),
+                        percent_text(bar.number("peak_frequency")),
+                        effects_text(run, curve.text("name"), peak_amplitude_goal),
+                        energy_cells(run, curve), not_known_text(bar));
   }
   return text;
 }

@@ -62,4 +62,8 @@ std::string percent_text(double share) {
                                    : fmt::format("{:.0f} %", percent);
 }
 
+std::string signed_percent_text(double share) {
+  return (std::signbit(share) ? "-" : "+") + percent_text(std::abs(share));
+}
+
 }  // namespace microslip::pipelines

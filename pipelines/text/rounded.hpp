@@ -17,4 +17,7 @@ namespace microslip::pipelines {
 /// "0.12 %", "13 %", "649 %": two digits, from 10 % on whole.
 [[nodiscard]] std::string percent_text(double share);
 
+/// The same with its sign: "+0.12 %".
+[[nodiscard]] std::string signed_percent_text(double share);
+
 }  // namespace microslip::pipelines

@@ -32,6 +32,8 @@ TEST(Rounded, SharesArePercentsWithoutAnExponent) {
   EXPECT_EQ(percent_text(0.00123), "0.12 %");
   EXPECT_EQ(percent_text(0.128), "13 %");
   EXPECT_EQ(percent_text(12.72), "1272 %");
+  EXPECT_EQ(signed_percent_text(1.06), "+106 %");
+  EXPECT_EQ(signed_percent_text(-0.00123), "-0.12 %");
 }
 
 }  // namespace
