@@ -16,6 +16,7 @@ import os
 import sys
 
 os.environ["OPENBLAS_NUM_THREADS"] = "1"  # its workers take address space, and nothing here needs them
+sys.dont_write_bytecode = True  # a full disk cuts it off, and no later run could read it
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "python"))
 
 from microslip.conversion import run

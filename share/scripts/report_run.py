@@ -10,6 +10,7 @@ RUN_FOLDER by default. The page needs no network and no matplotlib. Exit code 1,
 import os
 import sys
 
+sys.dont_write_bytecode = True  # a full disk cuts it off, and no later run could read it
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "python"))
 from microslip.report.command import report
 
