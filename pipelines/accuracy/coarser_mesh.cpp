@@ -12,9 +12,13 @@
 namespace microslip::pipelines {
 namespace {
 
-SolvedStructure with_element_size(const SceneDescription& scene, double factor) {
+/// @param n_modes  however far they reach.
+SolvedStructure with_element_size(const SceneDescription& scene, double factor, int n_modes) {
   const TemporaryFolder folder;
-  return solved_structure(with_elements_scaled(scene, factor), folder.path() / "mesh.msh");
+  SceneDescription coarser = with_elements_scaled(scene, factor);
+  coarser.settings.basis.n_modes = n_modes;
+  coarser.settings.basis.reach = 0.0;
+  return solved_structure(coarser, folder.path() / "mesh.msh");
 }
 
 /// 2^p, see above.
@@ -52,8 +56,9 @@ std::optional<RicherModel> coarser_mesh(const ReducedModel& model, const SceneDe
   if (!element_size_of(scene)) return std::nullopt;
   std::vector<std::string> warnings;
   try {
-    const SolvedStructure twice = with_element_size(scene, 2.0);
-    const SolvedStructure four_times = with_element_size(scene, 4.0);
+    const auto n_modes = static_cast<int>(model.frequency.size() - model.n_attachment);
+    const SolvedStructure twice = with_element_size(scene, 2.0, n_modes);
+    const SolvedStructure four_times = with_element_size(scene, 4.0, scene.settings.basis.n_modes);
     RicherModel coarser{"mesh", model_of(scene, &twice, warnings)};
     coarser.model.effects = model.effects;
     if (coarser.model.frequency.size() != model.frequency.size()) return std::nullopt;

@@ -35,12 +35,15 @@ Ladder of_element_size(const SceneDescription& scene) {
 
 Ladder of_modes(const SceneDescription& scene) {
   Ladder ladder{"modes", "basis", {}};
-  const int given = scene.settings.basis.n_modes;
+  const BasisSettings& basis = scene.settings.basis;
+  const int given = basis.n_modes;
   for (const int n :
        std::set{std::max(1, given / 4), std::max(1, given / 2), given, 2 * given, 4 * given}) {
-    ladder.rungs.push_back(rung(scene, fmt::format("{}", n), 0.0,
-                                [&](auto& other) { other.settings.basis.n_modes = n; }));
-    ladder.rungs.back().same_basis = n == given;
+    ladder.rungs.push_back(rung(scene, fmt::format("{}", n), 0.0, [&](auto& other) {
+      other.settings.basis.n_modes = n;
+      other.settings.basis.reach = 0.0;  // their number as the rung tells it
+    }));
+    ladder.rungs.back().same_basis = n == given && basis.reach == 0.0;
   }
   return ladder;
 }
