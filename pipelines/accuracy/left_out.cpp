@@ -134,13 +134,20 @@ std::optional<solver::PeakOfBoth> found_elsewhere(const solver::Scene& own,
 /// What may be solved again of an effect and a curve [s].
 constexpr double bearable = 60.0;
 
+/// As long as a curve may take, and no longer than what is bearable.
+double longest(const SceneDescription& scene) {
+  return std::min(bearable, scene.response->time_budget);
+}
+
 /// The whole curve with the effect: a peak of one that leans over, or jumps, may lie where nothing
 /// leads to from that without. @return empty: it has no peak, or takes too long.
 std::optional<solver::ResponseCurve> traced_with(const solver::OtherModel& with,
-                                                 const solver::ContinuationOptions& options,
-                                                 const solver::ResponseCurve& own) {
-  if (own.seconds > bearable) return std::nullopt;
-  const auto goes_on = [](const auto&) { return !interrupt_requested() && !cut_short(); };
+                                                 solver::ContinuationOptions options,
+                                                 const solver::ResponseCurve& own, double seconds) {
+  if (own.seconds > seconds) return std::nullopt;
+  const TimeLimit limit(seconds);
+  options.stop = [&limit, stop = options.stop] { return limit.is_over() || stop(); };
+  const auto goes_on = [&](const auto&) { return !options.stop(); };
   solver::ResponseCurve curve = solver::trace_response(with.scene, options, goes_on);
   if (!curve.complete || highest_peak(curve)->mark != solver::PointMark::peak) return std::nullopt;
   return curve;
@@ -169,6 +176,7 @@ struct Comparison {
   const solver::ResponseCurve& curve;
   double highest;  ///< amplitude [m]
   bool all_peaks;  ///< else the highest
+  double seconds;  ///< of a curve with the effect, at most
 };
 
 /// Of a resonance and of the amplitude at an end of the range; of nothing, nothing has changed.
@@ -203,7 +211,7 @@ Changes changes_of(const Comparison& of) {
       both = found_elsewhere(of.own, of.options, i == 0 ? of.curve : peaks[i], of.with);
     }
     if (!both && i == 0 && !range.is_point()) {
-      whole = traced_with(of.with, of.options, of.curve);
+      whole = traced_with(of.with, of.options, of.curve, of.seconds);
       if (whole) {
         both = pair_of(peak, *highest_peak(*whole));
         moved = both->other_frequency / both->frequency;
@@ -259,7 +267,8 @@ Changes changes_balanced(const SceneDescription& scene, const ReducedModel& mode
                      options_of_both(scene, model, richer),
                      result.curve,
                      peak.amplitude,
-                     all_peaks});
+                     all_peaks,
+                     longest(scene)});
 }
 
 /// What is integrated again: all frequencies where that is bearable, else the one where the motion

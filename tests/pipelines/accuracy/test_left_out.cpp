@@ -214,6 +214,13 @@ TEST(LeftOut, APeakThatIsNotReachedFromThatWithoutIsFoundAlongACurveOfItsOwn) {
                       highest_peak(without.curves[0].curve)->frequency -
                   1.0,
               1e-6);
+  Study hurried = without;
+  hurried.scene.response->time_budget = 1e-6;
+  hurried.curves[0].curve.seconds = 0.0;
+  const auto rows_in_time = rows_of(hurried);
+  const ErrorRow* lost = found(rows_in_time, "roughness", peak_amplitude_goal);
+  ASSERT_NE(lost, nullptr);
+  EXPECT_FALSE(std::isfinite(lost->effect)) << "a curve that takes longer than it may";
 }
 
 TEST(LeftOut, APeakThatLeavesTheRangeIsToldByItsFrequency) {
