@@ -293,11 +293,15 @@ AccuracyRequest read_accuracy(const SectionReader& s, bool closer_is_asked,
   accuracy.budget = s.number_or_off("budget").value_or(accuracy.budget);
   if (accuracy.tolerance == 0.0) return accuracy;
   if (!accuracy.error_budget) {
-    s.fail("tolerance", "accuracy.error_budget = \"off\" tells no errors to be kept below it",
+    s.fail("tolerance",
+           "accuracy.error_budget = \"off\" tells no errors to be kept below it; leave one of both "
+           "out",
            s.node("tolerance"));
   }
   if (scene.response && scene.response->method == ResponseDescription::Method::time) {
-    s.fail("tolerance", "response.method = \"time\" has settings of its own and no error budget",
+    s.fail("tolerance",
+           "response.method = \"time\" has settings of its own and no error budget; set "
+           "accuracy.tolerance = \"off\"",
            s.node("tolerance"));
   }
   HarmonicSettings& harmonics = scene.settings.harmonics;
