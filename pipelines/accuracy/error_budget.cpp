@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "pipelines/response/resonating_shapes.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/response/sampled_curve.hpp"
 #include "pipelines/system/deadline.hpp"
@@ -211,6 +212,20 @@ bool CurveBudget::has_bar() const {
   return !rows.empty() && std::ranges::find(unknown, "harmonics") == unknown.end();
 }
 
+namespace {
+
+/// Contact that opens and closes drives harmonics beyond the modes kept, which are not asked what
+/// they do (harmonics.md).
+bool leaves_modes_out(const ReducedModel& model, const SceneDescription& scene,
+                      const CurveResult& result) {
+  const HarmonicSettings& harmonics = scene.settings.harmonics;
+  return harmonics.chosen() && result.curve.certificate.empty() &&
+         continuation_options(scene, model).n_harmonics < harmonics.highest &&
+         opens_and_closes(result.curve);
+}
+
+}  // namespace
+
 CurveBudget error_budget(const ReducedModel& model, const SceneDescription& scene,
                          const RicherModels& richer, const CurveResult& result) {
   CurveBudget budget;
@@ -236,6 +251,7 @@ CurveBudget error_budget(const ReducedModel& model, const SceneDescription& scen
     add_model(budget, model, scene, other, result, *load);
     if (other.source == "instants") add_marks(budget, model, other, result, *load);
   }
+  if (leaves_modes_out(model, scene, result)) budget.unknown.emplace_back("modes");
   add_certificate(budget, result, *peak);
   return budget;
 }

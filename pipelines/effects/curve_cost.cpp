@@ -67,7 +67,9 @@ double n_shapes(const SceneDescription& scene) {
 
 double n_free_modes(const SceneDescription& scene) {
   const auto* modal = std::get_if<ModalModel>(&scene.model);
-  if (modal == nullptr) return scene.settings.basis.n_modes;
+  const BasisSettings& basis = scene.settings.basis;
+  constexpr double as_reach = 2.0;  // times those asked for, about
+  if (modal == nullptr) return basis.n_modes * (basis.reach > 0.0 ? as_reach : 1.0);
   return static_cast<double>(modal->frequency_hz.size() - modal->n_attachment);
 }
 

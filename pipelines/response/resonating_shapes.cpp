@@ -6,9 +6,7 @@
 #include <fmt/format.h>
 
 namespace microslip::pipelines {
-namespace {
 
-/// Open for more of the period at some points of the curve than at others, or at its only one.
 bool opens_and_closes(const solver::ResponseCurve& curve) {
   constexpr double seen = 1e-3;
   const auto [least, most] = std::ranges::minmax(
@@ -16,8 +14,6 @@ bool opens_and_closes(const solver::ResponseCurve& curve) {
   const double open = most.report.separated_share;
   return open > seen && (curve.points.size() == 1 || open - least.report.separated_share > seen);
 }
-
-}  // namespace
 
 void tell_shapes_resonate(const Eigen::VectorXd& frequency, Eigen::Index n_attachment,
                           double highest, solver::ResponseCurve& curve) {

@@ -10,6 +10,9 @@
 
 namespace microslip::pipelines {
 
+/// Open for more of the period at some points of the curve than at others, or at its only one.
+[[nodiscard]] bool opens_and_closes(const solver::ResponseCurve& curve);
+
 /// Adds a sentence to the message of a curve whose contact opens and closes,
 /// where its harmonics reach a shape.
 /// @param frequency     ω as solved with [rad/s]; the last n_attachment are those of attachment
