@@ -168,8 +168,7 @@ std::string many_folds_text(const CurveResult& result) {
       "curve {}: {} folds, {:.0f} % of its points unstable: many solutions share a frequency, as "
       "where light damping, or friction that falls with the speed, lets higher harmonics resonate; "
       "more damping or fewer response.harmonics have fewer of them, response.method = \"time\" "
-      "over "
-      "a narrow range shows what a sweep meets",
+      "over a narrow range shows what a sweep meets",
       result.name, n_folds, 100.0 * n_unstable / static_cast<double>(points.size()));
 }
 

@@ -56,11 +56,13 @@ struct Traced {
   CurveBudget budget;
 };
 
-Traced traced(const std::string& harmonics, double preload) {
+/// @param n_attachment  so many of its three modes count as attachment shapes.
+Traced traced(const std::string& harmonics, double preload, Eigen::Index n_attachment = 0) {
   const SceneDescription scene =
       read_scene(MICROSLIP_SCENES "/chain_3dof_normal.toml", {"response.harmonics=" + harmonics});
   std::vector<std::string> warnings;
-  const ReducedModel model = model_of(scene, nullptr, warnings);
+  ReducedModel model = model_of(scene, nullptr, warnings);
+  model.n_attachment = n_attachment;
   Traced result;
   result.curve =
       trace_curve(model, scene, CurveRequest{"curve", preload}, [](const auto&) { return true; });
@@ -101,6 +103,14 @@ TEST(ErrorBudget, OfAContactThatSticksHasNoEffectOnDissipatedEnergy) {
   EXPECT_FALSE(stuck.budget.energy_ratio.has_value());
   for (const ErrorRow& row : stuck.budget.rows) EXPECT_NE(row.goal, dissipated_energy_goal);
   EXPECT_NE(budget_text(stuck.budget).find("friction dissipates nothing"), std::string::npos);
+}
+
+// Chosen harmonics end where the modes do; what is beyond is in no bar.
+TEST(ErrorBudget, SaysWhereHarmonicsBeyondTheModesKeptAreNotAsked) {
+  const std::vector<std::string> modes{"modes"};
+  EXPECT_EQ(traced("auto", 30.0, 1).budget.unknown, modes);
+  EXPECT_TRUE(traced("auto", 30.0).budget.unknown.empty()) << "no shapes: all are asked";
+  EXPECT_TRUE(traced("auto", 1e5, 1).budget.unknown.empty()) << "nothing opens";
 }
 
 }  // namespace
