@@ -18,6 +18,15 @@
 
 namespace microslip::contact {
 
+/// ∂G/∂q = Tᵀ K T of every pair of harmonic rows, where a force sees N modes through r coordinates.
+struct FewerDerivatives {
+  Eigen::MatrixXd of_modes;  ///< T, r × N
+  Eigen::MatrixXd jacobian;  ///< K, rows · r square [1/s²]
+
+  /// Tᵀ K T, rows · N square.
+  [[nodiscard]] Eigen::MatrixXd expanded() const;
+};
+
 /// G and its derivatives at one iterate, by n = rows · n_modes unknowns: all of
 /// Harmonics::vector(), in its order, or those asked for.
 struct ForceAndJacobian {
@@ -27,6 +36,8 @@ struct ForceAndJacobian {
   /// Largest ‖δG‖ by which G may be off because a method did not meet its own tolerance [N/√kg].
   /// Whoever judges a residual adds it.
   double defect = 0.0;
+  /// In place of `jacobian`, which is empty then, where it is asked for and the force has it.
+  std::shared_ptr<const FewerDerivatives> fewer{};
 };
 
 /// What one solution did over its period: judged once per accepted point, not per iterate.
@@ -50,6 +61,7 @@ struct Asked {
   /// Of the force: what a motion asks of equations left out. Fewer than the motion has, e.g. 0:
   /// those of the motion. More: without derivatives.
   int n_harmonics = 0;
+  bool fewer = false;  ///< derivatives may come as FewerDerivatives
 };
 
 /// A force does not change: what an evaluation leaves for the next lies in a workspace that the

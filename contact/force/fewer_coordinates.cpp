@@ -55,30 +55,20 @@ LinearState FewerCoordinates::linear_state(const Harmonics& centre, double radiu
   return force_->linear_state(coordinates(centre), norm_ * radius);
 }
 
-Eigen::MatrixXd FewerCoordinates::expanded(const Eigen::MatrixXd& jacobian) const {
-  const Eigen::Index r = of_modes_.rows();
-  const Eigen::Index n = of_modes_.cols();
-  const Eigen::Index rows = jacobian.rows() / r;
-  Eigen::MatrixXd wide(jacobian.rows(), rows * n);
-  for (Eigen::Index l = 0; l < rows; ++l) {
-    wide.middleCols(l * n, n).noalias() = jacobian.middleCols(l * r, r) * of_modes_;
-  }
-  Eigen::MatrixXd result(rows * n, rows * n);
-  for (Eigen::Index k = 0; k < rows; ++k) {
-    result.middleRows(k * n, n).noalias() = of_modes_.transpose() * wide.middleRows(k * r, r);
-  }
-  return result;
-}
-
 ForceAndJacobian FewerCoordinates::evaluated(const Harmonics& q, double frequency,
                                              const Asked& asked, Workspace& work) const {
-  const ForceAndJacobian few = force_->evaluate(coordinates(q), frequency, asked, work);
+  ForceAndJacobian few = force_->evaluate(coordinates(q), frequency, asked, work);
   ForceAndJacobian result;
   result.force = Harmonics(few.force.n_harmonics(), n_modes());
   result.force.rows().noalias() = few.force.rows() * of_modes_;
-  result.jacobian = expanded(few.jacobian);
   result.frequency_derivative = to_modes(few.frequency_derivative, of_modes_);
   result.defect = norm_ * few.defect;
+  FewerDerivatives derivatives{of_modes_, std::move(few.jacobian)};
+  if (asked.fewer) {
+    result.fewer = std::make_shared<const FewerDerivatives>(std::move(derivatives));
+  } else {
+    result.jacobian = derivatives.expanded();
+  }
   return result;
 }
 

@@ -33,8 +33,6 @@ class FewerCoordinates final : public ModalForce {
   [[nodiscard]] ForceAndJacobian evaluated(const Harmonics& q, double frequency, const Asked& asked,
                                            Workspace& work) const override;
   [[nodiscard]] Harmonics coordinates(const Harmonics& q) const;
-  /// Tᵀ J T of every pair of harmonic rows.
-  [[nodiscard]] Eigen::MatrixXd expanded(const Eigen::MatrixXd& jacobian) const;
 
   Eigen::MatrixXd of_modes_;
   double norm_;  // of T

@@ -5,6 +5,21 @@
 
 namespace microslip::contact {
 
+Eigen::MatrixXd FewerDerivatives::expanded() const {
+  const Eigen::Index r = of_modes.rows();
+  const Eigen::Index n = of_modes.cols();
+  const Eigen::Index rows = jacobian.rows() / r;
+  Eigen::MatrixXd wide(jacobian.rows(), rows * n);
+  for (Eigen::Index l = 0; l < rows; ++l) {
+    wide.middleCols(l * n, n).noalias() = jacobian.middleCols(l * r, r) * of_modes;
+  }
+  Eigen::MatrixXd result(rows * n, rows * n);
+  for (Eigen::Index k = 0; k < rows; ++k) {
+    result.middleRows(k * n, n).noalias() = of_modes.transpose() * wide.middleRows(k * r, r);
+  }
+  return result;
+}
+
 ForceAndJacobian ModalForce::evaluate(const Harmonics& q, double frequency, const Asked& asked,
                                       Workspace& work) const {
   if (asked.n_harmonics > q.n_harmonics() && !asked.rows.empty()) {

@@ -13,7 +13,7 @@ double product(const BranchVector& row, const Eigen::VectorXd& y) {
 }  // namespace
 
 BranchFactors::BranchFactors(const BalanceEvaluation& at, BranchVector row, const Scaling& scaling)
-    : factors_(bordered(at, row, scaling)),
+    : factors_(at, row, scaling),
       row_(std::move(row)),
       scaling_(scaling),
       along_(factors_.solve(Eigen::VectorXd::Unit(row_.x.size() + 1, row_.x.size()))) {}

@@ -3,7 +3,7 @@
 /// other rows, and other places near by, where Broyden's method mends them (few_jacobians.hpp).
 #pragma once
 
-#include "contact/dense.hpp"
+#include "solver/balance/condensed.hpp"
 #include "solver/balance/newton.hpp"
 
 namespace microslip::solver {
@@ -22,7 +22,7 @@ class BranchFactors {
                                       const Scaling& scaling) const;
 
  private:
-  contact::LuFactors factors_;
+  BorderedFactors factors_;
   BranchVector row_;
   Scaling scaling_;
   Eigen::VectorXd along_;  // [∂R/∂y; row]⁻¹ (0, 1): along the branch

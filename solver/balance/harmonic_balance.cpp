@@ -108,8 +108,9 @@ Eigen::VectorXd HarmonicBalance::unknowns(const Eigen::VectorXd& full) const {
 }
 
 /// Force and derivatives in the unknowns alone; all rows of the force.
-contact::ForceAndJacobian HarmonicBalance::contact_at(const Eigen::VectorXd& x, double frequency) {
-  return scene_.contact->evaluate(harmonics(x), frequency, {.rows = rows_}, *work_);
+contact::ForceAndJacobian HarmonicBalance::contact_at(const Eigen::VectorXd& x, double frequency,
+                                                      bool fewer) {
+  return scene_.contact->evaluate(harmonics(x), frequency, {.rows = rows_, .fewer = fewer}, *work_);
 }
 
 void HarmonicBalance::add_linear_residual(const Eigen::VectorXd& x, double frequency,
@@ -123,24 +124,58 @@ void HarmonicBalance::add_linear_residual(const Eigen::VectorXd& x, double frequ
   }
 }
 
-void HarmonicBalance::add_linear_part(const Eigen::VectorXd& x, double frequency,
-                                      BalanceEvaluation& result) const {
-  add_linear_residual(x, frequency, result.residual);
+PairedDiagonal HarmonicBalance::linear_jacobian(double frequency) const {
   const Eigen::Index n = scene_.n_modes();
-  auto& J = result.jacobian;
-  J.diagonal().head(n) += stiffness_;
+  PairedDiagonal own{n, Eigen::VectorXd(size()), Eigen::VectorXd::Zero(size())};
+  own.diagonal.head(n) = stiffness_;
   Eigen::Index s = n;
   for (const int k : set_.orders()) {
-    const Eigen::Index c = s + n;
     const HarmonicBlock block = harmonic_block(stiffness_, damping_, k * frequency);
-    J.diagonal().segment(s, 2 * n) += block.dynamic.matrix().replicate(2, 1);
-    J.block(s, c, n, n).diagonal() -= block.viscous.matrix();
-    J.block(c, s, n, n).diagonal() += block.viscous.matrix();
+    own.diagonal.segment(s, 2 * n) = block.dynamic.matrix().replicate(2, 1);
+    own.coupling.segment(s, n) = -block.viscous.matrix();
+    own.coupling.segment(s + n, n) = block.viscous.matrix();
+    s += 2 * n;
+  }
+  return own;
+}
+
+/// Harmonics near a natural frequency, where what a mode answers with is not told by its stiffness.
+std::vector<Eigen::Index> HarmonicBalance::resonant_unknowns(double frequency) const {
+  constexpr double near = 0.1;  // of stiffness and inertia together
+  const Eigen::Index n = scene_.n_modes();
+  std::vector<Eigen::Index> unknowns;
+  Eigen::Index s = n;
+  for (const int k : set_.orders()) {
+    const HarmonicBlock block = harmonic_block(stiffness_, damping_, k * frequency);
+    const double inertia = (k * frequency) * (k * frequency);
+    for (const Eigen::Index first : {s, s + n}) {
+      for (Eigen::Index i = 0; i < n; ++i) {
+        const double left = std::hypot(block.dynamic[i], block.viscous[i]);
+        if (!(left > near * (stiffness_[i] + inertia))) unknowns.push_back(first + i);
+      }
+    }
+    s += 2 * n;
+  }
+  return unknowns;
+}
+
+void HarmonicBalance::add_frequency_derivative(const Eigen::VectorXd& x, double frequency,
+                                               BalanceEvaluation& result) const {
+  const Eigen::Index n = scene_.n_modes();
+  Eigen::Index s = n;
+  for (const int k : set_.orders()) {
     const HarmonicBlock by_frequency{Eigen::ArrayXd::Constant(n, -2.0 * k * k * frequency),
                                      k * damping_.array()};
     by_frequency.add_product(x, s, result.parameter_derivative);
     s += 2 * n;
   }
+}
+
+void HarmonicBalance::add_linear_part(const Eigen::VectorXd& x, double frequency,
+                                      Eigen::MatrixXd& jacobian, BalanceEvaluation& result) const {
+  add_linear_residual(x, frequency, result.residual);
+  linear_jacobian(frequency).add_to(jacobian);
+  add_frequency_derivative(x, frequency, result);
 }
 
 void HarmonicBalance::hold_loose_means(double frequency, Eigen::MatrixXd& jacobian) const {
@@ -178,21 +213,31 @@ BalanceEvaluation HarmonicBalance::nowhere() const {
 BalanceEvaluation HarmonicBalance::evaluate(const Eigen::VectorXd& x, double frequency) {
   if (frequency < 0.0) return nowhere();
   BalanceEvaluation result;
+  Eigen::MatrixXd jacobian;
   if (scene_.contact) {
-    contact::ForceAndJacobian contact = contact_at(x, frequency);
+    contact::ForceAndJacobian contact = contact_at(x, frequency, rigid_.empty());
     result.contact_force = unknowns(contact.force);
     result.residual = result.contact_force - excitation_;
-    result.jacobian = std::move(contact.jacobian);
     result.parameter_derivative = std::move(contact.frequency_derivative);
     result.defect = contact.defect;
+    if (contact.fewer) {
+      add_linear_residual(x, frequency, result.residual);
+      add_frequency_derivative(x, frequency, result);
+      result.jacobian = BalanceJacobian({.own = linear_jacobian(frequency),
+                                         .contact = std::move(contact.fewer),
+                                         .resonant = resonant_unknowns(frequency)});
+      return result;
+    }
+    jacobian = std::move(contact.jacobian);
   } else {
     result.contact_force = Eigen::VectorXd::Zero(size());
     result.residual = -excitation_;
-    result.jacobian = Eigen::MatrixXd::Zero(size(), size());
+    jacobian = Eigen::MatrixXd::Zero(size(), size());
     result.parameter_derivative = Eigen::VectorXd::Zero(size());
   }
-  add_linear_part(x, frequency, result);
-  hold_loose_means(frequency, result.jacobian);
+  add_linear_part(x, frequency, jacobian, result);
+  hold_loose_means(frequency, jacobian);
+  result.jacobian = std::move(jacobian);
   return result;
 }
 
@@ -232,17 +277,18 @@ BalanceEvaluation HarmonicBalance::evaluate_homotopy(const Eigen::VectorXd& x, d
                                                      double share,
                                                      const Eigen::MatrixXd& stiffness) {
   BalanceEvaluation result;
-  const contact::ForceAndJacobian contact = contact_at(x, frequency);
+  const contact::ForceAndJacobian contact = contact_at(x, frequency, false);
   result.contact_force = unknowns(contact.force);
   result.defect = share * contact.defect;
   Eigen::MatrixXd linear = Eigen::MatrixXd::Zero(size(), size());
   add_stiffness(stiffness, 1.0, linear);
   const Eigen::VectorXd linear_force = linear * x;
   result.residual = share * result.contact_force + (1.0 - share) * linear_force - excitation_;
-  result.jacobian = share * contact.jacobian + (1.0 - share) * linear;
+  Eigen::MatrixXd jacobian = share * contact.jacobian + (1.0 - share) * linear;
   result.parameter_derivative = Eigen::VectorXd::Zero(size());
-  add_linear_part(x, frequency, result);
-  hold_loose_means(frequency, result.jacobian);
+  add_linear_part(x, frequency, jacobian, result);
+  hold_loose_means(frequency, jacobian);
+  result.jacobian = std::move(jacobian);
   result.parameter_derivative = result.contact_force - linear_force;
   return result;
 }

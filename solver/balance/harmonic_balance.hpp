@@ -16,6 +16,7 @@
 
 #include <Eigen/Core>
 
+#include "solver/balance/balance_jacobian.hpp"
 #include "solver/balance/harmonic_set.hpp"
 #include "solver/scene.hpp"
 
@@ -24,7 +25,7 @@ namespace microslip::solver {
 /// R and its derivatives at one iterate; n = (2 · number of harmonics + 1) · n_modes.
 struct BalanceEvaluation {
   Eigen::VectorXd residual;              ///< R [N/√kg], n
-  Eigen::MatrixXd jacobian;              ///< ∂R/∂x [1/s²], n × n
+  BalanceJacobian jacobian;              ///< ∂R/∂x [1/s²], n × n
   Eigen::VectorXd parameter_derivative;  ///< ∂R/∂ω at fixed x, or by a homotopy's parameter, n
   Eigen::VectorXd contact_force;         ///< G [N/√kg], n
   double defect = 0.0;  ///< what ‖R‖ may be off by because G is not known better [N/√kg]
@@ -81,7 +82,13 @@ class HarmonicBalance {
  private:
   void add_linear_residual(const Eigen::VectorXd& x, double frequency,
                            Eigen::VectorXd& residual) const;
-  void add_linear_part(const Eigen::VectorXd& x, double frequency, BalanceEvaluation& result) const;
+  /// Of L, each mode and harmonic alone.
+  [[nodiscard]] PairedDiagonal linear_jacobian(double frequency) const;
+  void add_linear_part(const Eigen::VectorXd& x, double frequency, Eigen::MatrixXd& jacobian,
+                       BalanceEvaluation& result) const;
+  void add_frequency_derivative(const Eigen::VectorXd& x, double frequency,
+                                BalanceEvaluation& result) const;
+  [[nodiscard]] std::vector<Eigen::Index> resonant_unknowns(double frequency) const;
   void add_stiffness(const Eigen::MatrixXd& stiffness, double factor,
                      Eigen::MatrixXd& matrix) const;
   /// Where nothing holds a rigid body at rest, free or with every point that could hold it
@@ -89,7 +96,8 @@ class HarmonicBalance {
   /// leaves the place as it is.
   void hold_loose_means(double frequency, Eigen::MatrixXd& jacobian) const;
   [[nodiscard]] BalanceEvaluation nowhere() const;
-  [[nodiscard]] contact::ForceAndJacobian contact_at(const Eigen::VectorXd& x, double frequency);
+  [[nodiscard]] contact::ForceAndJacobian contact_at(const Eigen::VectorXd& x, double frequency,
+                                                     bool fewer);
 
   const Scene& scene_;
   HarmonicSet set_;

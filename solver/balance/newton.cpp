@@ -7,6 +7,7 @@
 
 #include "contact/dense.hpp"
 #include "solver/balance/branch_factors.hpp"
+#include "solver/balance/condensed.hpp"
 
 namespace microslip::solver {
 namespace {
@@ -50,8 +51,7 @@ class Iteration {
     Eigen::VectorXd right(n + 1);
     right.head(n) = -now_.evaluation.residual / scaling_.residual;
     right[n] = 0.0;
-    const Eigen::VectorXd y =
-        contact::solved(bordered(now_.evaluation, constraint_, scaling_), right);
+    const Eigen::VectorXd y = BorderedFactors(now_.evaluation, constraint_, scaling_).solve(right);
     return {y.head(n) * scaling_.x, y[n] * scaling_.parameter};
   }
 
@@ -65,7 +65,7 @@ class Iteration {
 
   /// A point with its derivatives, where it has been met by its residual alone.
   [[nodiscard]] NewtonResult whole(NewtonResult at) {
-    if (at.evaluation.jacobian.size() > 0) return at;
+    if (!at.evaluation.jacobian.empty()) return at;
     ++now_.evaluations;
     return evaluated_at(system_, std::move(at.point), scaling_);
   }
@@ -133,7 +133,7 @@ Eigen::MatrixXd bordered(const BalanceEvaluation& at, const BranchVector& row,
                          const Scaling& scaling) {
   const Eigen::Index n = at.residual.size();
   Eigen::MatrixXd matrix(n + 1, n + 1);
-  matrix.topLeftCorner(n, n) = at.jacobian * (scaling.x / scaling.residual);
+  matrix.topLeftCorner(n, n) = at.jacobian.dense() * (scaling.x / scaling.residual);
   matrix.topRightCorner(n, 1) = at.parameter_derivative * (scaling.parameter / scaling.residual);
   matrix.bottomLeftCorner(1, n) = row.x.transpose();
   matrix(n, n) = row.parameter;
@@ -147,7 +147,7 @@ NewtonResult evaluated_at(const ParametricSystem& system, BranchVector point,
   result.evaluation = system(result.point.x, result.point.parameter);
   // A residual that is not known cannot be small.
   const double size = result.evaluation.residual.norm() + result.evaluation.defect;
-  result.residual = std::isfinite(size) && result.evaluation.jacobian.allFinite() &&
+  result.residual = std::isfinite(size) && result.evaluation.jacobian.all_finite() &&
                             result.evaluation.parameter_derivative.allFinite()
                         ? size / scaling.residual
                         : std::numeric_limits<double>::infinity();

@@ -196,11 +196,11 @@ Stall BranchWalker::stall() {
   constexpr double vertical = 0.1;     // share of the parameter in the tangent
   // That of the solution itself: its evaluation may have the derivatives of the guess.
   const BranchVector& at = now_.solution.point;
-  const Eigen::MatrixXd here = system_(at.x, at.parameter).jacobian;
+  const Eigen::MatrixXd here = system_(at.x, at.parameter).jacobian.dense();
   ++evaluations_;
   for (const double ahead : {-1e-6, 1e-6}) {
     const BranchVector probe = moved(now_.solution.point, now_.tangent, ahead, now_.scaling);
-    const Eigen::MatrixXd there = system_(probe.x, probe.parameter).jacobian;
+    const Eigen::MatrixXd there = system_(probe.x, probe.parameter).jacobian.dense();
     ++evaluations_;
     if (!((there - here).norm() <= chattering * here.norm())) return Stall::chatter;
   }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "contact/dense.hpp"
+#include "solver/balance/condensed.hpp"
 #include "solver/balance/first_harmonics.hpp"
 #include "solver/branch/start_point.hpp"
 #include "solver/curve/curve_tracer.hpp"
@@ -212,7 +213,7 @@ class Search {
       if (residual.norm() <= 1e-8 * scale) return x;
       if (is_stalled(merits)) return std::nullopt;
       const BalanceEvaluation at = balance_->evaluate(x, frequency);
-      Eigen::VectorXd step = -contact::solved(at.jacobian, at.residual);
+      Eigen::VectorXd step = -solved(at.jacobian, at.residual);
       step /= 1.0 - logarithmic_gradient(x, size, known).dot(step);
       if (!step.allFinite()) return std::nullopt;
       const double longest = longest_step * std::max(x.norm(), size);

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <optional>
 
-#include "contact/dense.hpp"
 #include "solver/balance/branch_factors.hpp"
+#include "solver/balance/condensed.hpp"
 #include "solver/balance/output_amplitude.hpp"
 #include "solver/balance/period_energy.hpp"
 
@@ -22,7 +22,7 @@ std::complex<double> first_harmonic(const Harmonics& motion, const Eigen::Vector
 /// dx/dω, by factors where some are at hand.
 Eigen::VectorXd motion_by_frequency(const NewtonResult& at) {
   if (!at.factors) {
-    return -contact::solved(at.evaluation.jacobian, at.evaluation.parameter_derivative);
+    return -solved(at.evaluation.jacobian, at.evaluation.parameter_derivative);
   }
   const BranchVector tangent = at.factors->tangent().direction;
   const Scaling& scaling = at.factors->scaling();

@@ -146,7 +146,7 @@ std::optional<ResponseCurve> trace_at_rest(const Scene& scene, const Continuatio
   if (!(at.residual.norm() <= options.residual_tolerance)) return std::nullopt;
   const Eigen::Index n = scene.n_modes();
   const Scene linear = with_force(
-      scene, std::make_unique<LinearForce>(at.jacobian.block(n, n, n, n), *scene.contact));
+      scene, std::make_unique<LinearForce>(at.jacobian.dense().block(n, n, n, n), *scene.contact));
   const ContinuationOptions excited = with_excited_harmonics(scene, options);
   ResponseCurve curve = CurveTracer(linear, excited, observe).run();
   forget_evaluations(curve);

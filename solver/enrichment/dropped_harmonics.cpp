@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "contact/dense.hpp"
+#include "solver/balance/condensed.hpp"
 #include "solver/balance/output_amplitude.hpp"
 #include "solver/enrichment/enrichment.hpp"
 
@@ -14,12 +15,7 @@ std::vector<DroppedHarmonic> dropped_harmonics(HarmonicBalance& balance, const L
   const BalanceEvaluation at = balance.evaluate(peak.point.x, peak.point.parameter);
   const Scaling& scaling = peak.scaling;
   const Eigen::Index n = peak.point.x.size();
-  Eigen::MatrixXd matrix(n + 1, n + 1);
-  matrix.topLeftCorner(n, n) = at.jacobian * (scaling.x / scaling.residual);
-  matrix.topRightCorner(n, 1) = at.parameter_derivative * (scaling.parameter / scaling.residual);
-  const BranchVector border = border_of(peak);
-  matrix.row(n) << border.x.transpose(), border.parameter;
-  const contact::LuFactors factors(matrix);
+  const BorderedFactors factors(at, border_of(peak), scaling);
   const OutputAmplitude output =
       output_amplitude(balance.harmonics(peak.point.x), balance.scene().output);
   Eigen::VectorXd goal = Eigen::VectorXd::Zero(n + 1);

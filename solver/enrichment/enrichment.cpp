@@ -1,6 +1,6 @@
 #include "solver/enrichment/enrichment.hpp"
 
-#include "contact/dense.hpp"
+#include "solver/balance/condensed.hpp"
 #include "solver/balance/output_amplitude.hpp"
 
 namespace microslip::solver {
@@ -26,13 +26,9 @@ std::vector<RicherShare> richer_shares(HarmonicBalance& richer, const LocalPeak&
   const OutputAmplitude output =
       output_amplitude(richer.harmonics(peak.point.x), richer.scene().output);
   const BranchVector border = border_of(peak);
-  Eigen::MatrixXd matrix(size + 1, size + 1);
-  matrix.topLeftCorner(size, size) = at.jacobian * (scaling.x / scaling.residual);
-  matrix.topRightCorner(size, 1) = at.parameter_derivative * (scaling.parameter / scaling.residual);
-  matrix.row(size) << border.x.transpose(), border.parameter;
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(size + 1);
   gradient.head(size) = scaling.x * richer.unknowns(output.gradient);
-  const Eigen::VectorXd adjoint = contact::LuFactors(matrix).solve_transposed(gradient);
+  const Eigen::VectorXd adjoint = BorderedFactors(at, border, scaling).solve_transposed(gradient);
   std::vector<RicherShare> shares;
   const bool counts = output.half_peak_to_peak > 0.0;
   if (!counts || !adjoint.allFinite() || !residual.allFinite()) return shares;

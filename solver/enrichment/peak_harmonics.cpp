@@ -71,7 +71,7 @@ PeakHarmonicsChoice::Estimate PeakHarmonicsChoice::estimate(const HarmonicSet& s
   std::ranges::stable_sort(result.shares, std::ranges::greater{},
                            [](const RicherShare& share) { return std::abs(share.amplitude); });
   for (const int k :
-       resonant_orders(coarse, peak.point, at.jacobian, force, range_.harmonic_tolerance)) {
+       resonant_orders(coarse, peak.point, at.jacobian.dense(), force, range_.harmonic_tolerance)) {
     if (std::ranges::count(orders, k) > 0) result.resonant.push_back(k);
   }
   return result;

@@ -1,5 +1,6 @@
 #include "solver/point_shift.hpp"
 
+#include "solver/balance/condensed.hpp"
 #include "solver/balance/newton.hpp"
 #include "solver/balance/output_amplitude.hpp"
 #include "solver/branch/start_point.hpp"
@@ -16,7 +17,7 @@ std::optional<PointShift> point_shift(const Scene& scene, const ResponsePoint& p
   const Eigen::Index n = x.size();
   Eigen::VectorXd right(n + 1);
   right << -at.residual / scaling.residual, 0.0;
-  const Eigen::VectorXd step = contact::solved(bordered(at, *along, scaling), right);
+  const Eigen::VectorXd step = BorderedFactors(at, *along, scaling).solve(right);
   if (!step.allFinite()) return std::nullopt;
   const OutputAmplitude output = output_amplitude(balance.harmonics(x), scene.output);
   const Eigen::VectorXd gradient = balance.unknowns(output.gradient);

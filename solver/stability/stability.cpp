@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <utility>
 #include <vector>
 
 #include "contact/dense.hpp"
+#include "solver/balance/condensed.hpp"
 #include "solver/stability/floquet.hpp"
 
 namespace microslip::solver {
@@ -39,18 +41,6 @@ constexpr Eigen::Index most_multipliers_of_few = 60;
 constexpr Eigen::Index most_points_of_few = 60;
 // Of |μ|: differences of the period map err by 1e-5 where it is smooth, more where events graze.
 constexpr double multiplier_tolerance = 1e-4;
-
-double sign_of_determinant(const Eigen::MatrixXd& matrix) {
-  return contact::LuFactors(matrix).sign_of_determinant();
-}
-
-/// A balance reduced to some harmonics of some modes: what is left out follows without inertia or
-/// memory of its own, J_ll − J_lh J_hh⁻¹ J_hl, which keeps the zeros of the determinant.
-struct Reduced {
-  std::vector<int> orders;
-  std::vector<Eigen::Index> modes;
-  Eigen::MatrixXd jacobian;
-};
 
 /// The first two, and harmonics at which a mode is slow against the cycle.
 std::vector<int> slow_orders(const HarmonicBalance& balance, double frequency) {
@@ -91,42 +81,58 @@ std::vector<int> low_orders(const HarmonicBalance& balance, Eigen::Index n_modes
   return orders;
 }
 
-Reduced reduced(const HarmonicBalance& balance, const Eigen::MatrixXd& jacobian,
-                std::vector<int> orders, std::vector<Eigen::Index> modes) {
+std::vector<int> united(const std::vector<int>& a, const std::vector<int>& b) {
+  std::vector<int> all;
+  std::ranges::set_union(a, b, std::back_inserter(all));
+  return all;
+}
+
+/// To what the slow flow and Hill's problem ask for.
+ReducedBalance reduced(const HarmonicBalance& balance, const BalanceJacobian& jacobian,
+                       double frequency) {
+  const bool single = balance.set().highest() == 1;
+  ReducedBalance result;
+  result.modes = single ? all_modes(balance.scene()) : moving_modes(balance, frequency);
+  const auto n_kept = static_cast<Eigen::Index>(result.modes.size());
+  result.orders = united(slow_orders(balance, frequency), low_orders(balance, n_kept));
+  std::vector<Eigen::Index> low = result.modes;
   const Eigen::Index n = balance.scene().n_modes();
-  Reduced result{std::move(orders), std::move(modes), {}};
-  std::vector<Eigen::Index> low;
-  std::vector<Eigen::Index> high;
-  const auto take = [&](Eigen::Index first, bool kept) {
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const bool is_low = kept && std::binary_search(result.modes.begin(), result.modes.end(), i);
-      (is_low ? low : high).push_back(first + i);
-    }
-  };
-  take(0, true);
   Eigen::Index first = n;
   for (const int k : balance.set().orders()) {
-    const bool kept = std::binary_search(result.orders.begin(), result.orders.end(), k);
-    take(first, kept);
-    take(first + n, kept);
-    first += 2 * n;
+    const bool is_kept = std::binary_search(result.orders.begin(), result.orders.end(), k);
+    for (const Eigen::Index end = first + 2 * n; first < end; first += n) {
+      if (!is_kept) continue;
+      for (const Eigen::Index mode : result.modes) low.push_back(first + mode);
+    }
   }
-  result.jacobian = jacobian(low, low);
-  if (!high.empty()) {
-    result.jacobian -= jacobian(low, high) *
-                       contact::solved(jacobian(high, high), Eigen::MatrixXd(jacobian(high, low)));
-  }
+  result.jacobian = schur_complement(jacobian, low);
   return result;
 }
 
+/// @param orders  some of those that it has.
+ReducedBalance with_orders(const ReducedBalance& balance, const std::vector<int>& orders) {
+  if (orders == balance.orders) return balance;
+  const auto n = static_cast<Eigen::Index>(balance.modes.size());
+  std::vector<Eigen::Index> low(balance.modes.size());
+  std::iota(low.begin(), low.end(), Eigen::Index{0});
+  Eigen::Index first = n;
+  for (const int k : balance.orders) {
+    for (Eigen::Index i = first; i < first + 2 * n; ++i) {
+      if (std::binary_search(orders.begin(), orders.end(), k)) low.push_back(i);
+    }
+    first += 2 * n;
+  }
+  return {orders, balance.modes, schur_complement(balance.jacobian, low)};
+}
+
 /// Of the modes kept.
-Eigen::VectorXd damping_of(const Scene& scene, const Reduced& balance) {
+Eigen::VectorXd damping_of(const Scene& scene, const ReducedBalance& balance) {
   return 2.0 *
          scene.damping_ratio(balance.modes).cwiseProduct(scene.natural_frequency(balance.modes));
 }
 
 /// States (B, A^(1), …, A^(H), Ḃ): −M⁻¹ ∂R/∂x for the harmonics, second order for the mean.
-Eigen::MatrixXd slow_flow(const Scene& scene, const Reduced& balance, double frequency) {
+Eigen::MatrixXd slow_flow(const Scene& scene, const ReducedBalance& balance, double frequency) {
   const auto n = static_cast<Eigen::Index>(balance.modes.size());
   const Eigen::MatrixXd& jacobian = balance.jacobian;
   const Eigen::Index size = jacobian.rows();
@@ -153,7 +159,7 @@ Eigen::MatrixXd slow_flow(const Scene& scene, const Reduced& balance, double fre
 }
 
 /// Hill's problem as a first-order one in (p, λp/ω), eigenvalues over ω.
-Eigen::MatrixXd hill_matrix(const Scene& scene, const Reduced& balance, double frequency) {
+Eigen::MatrixXd hill_matrix(const Scene& scene, const ReducedBalance& balance, double frequency) {
   const auto n = static_cast<Eigen::Index>(balance.modes.size());
   const Eigen::Index size = balance.jacobian.rows();
   const Eigen::VectorXd damping = damping_of(scene, balance) / frequency;
@@ -233,15 +239,14 @@ bool is_damped_linear(const Scene& scene, const Harmonics& centre, double radius
 
 }  // namespace
 
-StabilityReport slow_flow_stability(const HarmonicBalance& balance, const Eigen::MatrixXd& jacobian,
+StabilityReport slow_flow_stability(const HarmonicBalance& balance, const BalanceJacobian& jacobian,
                                     double frequency, std::optional<double> determinant_sign) {
   StabilityReport report;
   report.determinant_sign = determinant_sign ? *determinant_sign : sign_of_determinant(jacobian);
+  report.reduced = std::make_shared<const ReducedBalance>(reduced(balance, jacobian, frequency));
   const Scene& scene = balance.scene();
-  const bool single = balance.set().highest() == 1;
-  const auto modes = single ? all_modes(scene) : moving_modes(balance, frequency);
-  const Eigen::MatrixXd flow = slow_flow(
-      scene, reduced(balance, jacobian, slow_orders(balance, frequency), modes), frequency);
+  const Eigen::MatrixXd flow =
+      slow_flow(scene, with_orders(*report.reduced, slow_orders(balance, frequency)), frequency);
   if (!flow.allFinite()) return report;
   const auto values = contact::general_eigenvalues(flow);
   if (!values) return report;
@@ -258,8 +263,8 @@ StabilityReport slow_flow_stability(const HarmonicBalance& balance, const Eigen:
   return report;
 }
 
-StabilityReport hill_stability(const HarmonicBalance& balance, const Eigen::MatrixXd& jacobian,
-                               double frequency, StabilityReport slow) {
+StabilityReport hill_stability(const HarmonicBalance& balance, double frequency,
+                               StabilityReport slow) {
   StabilityReport report = slow;
   const Harmonics rest(1, balance.scene().n_modes());
   if (is_damped_linear(balance.scene(), rest, std::numeric_limits<double>::infinity())) {
@@ -271,9 +276,8 @@ StabilityReport hill_stability(const HarmonicBalance& balance, const Eigen::Matr
   report.stability = Stability::not_assessed;
   report.basis = StabilityBasis::hill;
   const Scene& scene = balance.scene();
-  auto modes = moving_modes(balance, frequency);
-  const auto n = static_cast<Eigen::Index>(modes.size());
-  const Reduced low = reduced(balance, jacobian, low_orders(balance, n), std::move(modes));
+  const auto n = static_cast<Eigen::Index>(slow.reduced->modes.size());
+  const ReducedBalance low = with_orders(*slow.reduced, low_orders(balance, n));
   const Eigen::MatrixXd matrix = hill_matrix(scene, low, frequency);
   if (!matrix.allFinite()) return report;
   const auto pairs = contact::general_pairs(matrix);
@@ -329,10 +333,9 @@ StabilityReport stability_in_time(const HarmonicBalance& balance, const Harmonic
   return hill;
 }
 
-StabilityReport assess_stability(const HarmonicBalance& balance, const Eigen::MatrixXd& jacobian,
+StabilityReport assess_stability(const HarmonicBalance& balance, const BalanceJacobian& jacobian,
                                  double frequency) {
-  return hill_stability(balance, jacobian, frequency,
-                        slow_flow_stability(balance, jacobian, frequency));
+  return hill_stability(balance, frequency, slow_flow_stability(balance, jacobian, frequency));
 }
 
 }  // namespace microslip::solver

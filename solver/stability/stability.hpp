@@ -22,6 +22,7 @@
 /// frequency and damping ratio above 0 all its perturbations decay.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include <Eigen/Core>
@@ -31,6 +32,14 @@
 
 namespace microslip::solver {
 
+/// A balance reduced to some harmonics of some modes: what is left out follows without inertia or
+/// memory of its own, which keeps the zeros of the determinant (condensed.hpp).
+struct ReducedBalance {
+  std::vector<int> orders;
+  std::vector<Eigen::Index> modes;
+  Eigen::MatrixXd jacobian;
+};
+
 struct StabilityReport {
   Stability stability = Stability::not_assessed;
   StabilityBasis basis = StabilityBasis::slow_flow;
@@ -38,6 +47,8 @@ struct StabilityReport {
   double growth = 0.0;  ///< largest real part of the eigenvalues judged [rad/s], −∞: there is none
   /// How near, in frequency, a resonance of the linearised structure is, or how wide [rad/s].
   double nearest = 0.0;
+  /// Of slow_flow_stability(), which hill_stability() goes on from.
+  std::shared_ptr<const ReducedBalance> reduced{};
 };
 
 /// @param jacobian  of the point, or of one from which the solution was reached in a step or two
@@ -46,14 +57,13 @@ struct StabilityReport {
 /// By the slow flow alone: what one harmonic is judged by,
 /// and the width of resonances for any number.
 [[nodiscard]] StabilityReport slow_flow_stability(const HarmonicBalance& balance,
-                                                  const Eigen::MatrixXd& jacobian, double frequency,
+                                                  const BalanceJacobian& jacobian, double frequency,
                                                   std::optional<double> determinant_sign = {});
 
 /// The same judged by Hill's exponents where there are several harmonics and the scene is no damped
 /// linear one.
 /// @param slow  slow_flow_stability() of the same point.
-[[nodiscard]] StabilityReport hill_stability(const HarmonicBalance& balance,
-                                             const Eigen::MatrixXd& jacobian, double frequency,
+[[nodiscard]] StabilityReport hill_stability(const HarmonicBalance& balance, double frequency,
                                              StabilityReport slow);
 
 /// What a verdict may cost.
@@ -79,6 +89,6 @@ enum class PeriodMapEffort {
 
 /// slow_flow_stability() and hill_stability().
 [[nodiscard]] StabilityReport assess_stability(const HarmonicBalance& balance,
-                                               const Eigen::MatrixXd& jacobian, double frequency);
+                                               const BalanceJacobian& jacobian, double frequency);
 
 }  // namespace microslip::solver

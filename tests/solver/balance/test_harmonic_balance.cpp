@@ -31,7 +31,7 @@ TEST(HarmonicBalance, JacobianIsTheDifferenceOfResiduals) {
     const Eigen::VectorXd x = some_motion(balance, omega);
     const auto at = balance.evaluate(x, omega);
     const double h = 1e-6 * x.norm();
-    const double scale = at.jacobian.cwiseAbs().maxCoeff();
+    const double scale = at.jacobian.dense().cwiseAbs().maxCoeff();
     Eigen::Index far = 0;
     for (Eigen::Index j = 0; j < x.size(); ++j) {
       const Eigen::VectorXd step = h * Eigen::VectorXd::Unit(x.size(), j);
@@ -39,7 +39,7 @@ TEST(HarmonicBalance, JacobianIsTheDifferenceOfResiduals) {
                                           balance.evaluate(x - step, omega).residual) /
                                          (2.0 * h);
       // A kink of one of the points inside the step shows as h times its curvature at most.
-      if ((difference - at.jacobian.col(j)).cwiseAbs().maxCoeff() > 1e-5 * scale) ++far;
+      if ((difference - at.jacobian.dense().col(j)).cwiseAbs().maxCoeff() > 1e-5 * scale) ++far;
     }
     EXPECT_EQ(far, 0) << "seed " << seed;
   }
@@ -129,7 +129,7 @@ TEST(HarmonicBalance, JacobianOfTwoHarmonicsIsTheDifferenceOfResiduals) {
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     const Eigen::VectorXd step = Eigen::VectorXd::Unit(x.size(), i);  // linear: any step is exact
     const Eigen::VectorXd difference = balance.evaluate(x + step, 0.8).residual - at.residual;
-    EXPECT_LT((difference - at.jacobian.col(i)).norm(), 1e-13 * at.jacobian.norm());
+    EXPECT_LT((difference - at.jacobian.dense().col(i)).norm(), 1e-13 * at.jacobian.dense().norm());
   }
   const double h = 1e-6;
   const Eigen::VectorXd difference =
@@ -179,8 +179,8 @@ TEST(HarmonicBalance, ASetLeavesOutRowsAndColumnsOfTheWhole) {
   EXPECT_EQ(some.parameter_derivative, odd.unknowns(all.parameter_derivative));
   for (Eigen::Index j = 0; j < x.size(); ++j) {
     const Eigen::VectorXd step = Eigen::VectorXd::Unit(x.size(), j);
-    const Eigen::VectorXd column = all.jacobian * whole.unknowns(odd.harmonics(step));
-    EXPECT_EQ(some.jacobian.col(j), odd.unknowns(column)) << j;
+    const Eigen::VectorXd column = all.jacobian.dense() * whole.unknowns(odd.harmonics(step));
+    EXPECT_EQ(some.jacobian.dense().col(j), odd.unknowns(column)) << j;
   }
 }
 
@@ -199,7 +199,8 @@ TEST(HarmonicBalance, JacobianOfASetIsTheDifferenceOfResiduals) {
     // Central differences err by h² times the third derivative, 1e-12 of the scale, and by
     // rounding, 1e-16 / 1e-6 of it; transitions move by h between the two sides, which the square
     // root of section 4.5 enlarges.
-    EXPECT_LT((difference - at.jacobian.col(j)).norm(), 1e-5 * at.jacobian.norm()) << j;
+    EXPECT_LT((difference - at.jacobian.dense().col(j)).norm(), 1e-5 * at.jacobian.dense().norm())
+        << j;
   }
 }
 

@@ -1,0 +1,110 @@
+#include "solver/balance/condensed.hpp"
+
+#include <cmath>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <Eigen/LU>
+
+namespace microslip::solver::test_condensed {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr Index n_modes = 6;
+constexpr Index n_few = 3;
+constexpr Index n_blocks = 7;  // mean and three harmonics
+constexpr Index size = n_modes * n_blocks;
+
+MatrixXd numbers(Index rows, Index columns, unsigned seed) {
+  std::mt19937 generator(seed);
+  return MatrixXd::NullaryExpr(rows, columns, [&] {
+    return static_cast<double>(generator()) / static_cast<double>(std::mt19937::max()) - 0.5;
+  });
+}
+
+/// Modes from 1 to 11 rad/s at harmonics of `frequency`, with a contact that has no symmetry.
+BalanceEvaluation evaluation(double frequency, double damping_ratio, double contact,
+                             unsigned seed) {
+  CondensedJacobian parts;
+  parts.own = {n_modes, VectorXd(size), VectorXd::Zero(size)};
+  for (Index block = 0; block < n_blocks; ++block) {
+    const double turn = static_cast<double>((block + 1) / 2) * frequency;
+    for (Index mode = 0; mode < n_modes; ++mode) {
+      const double natural = 1.0 + 2.0 * static_cast<double>(mode);
+      const Index i = block * n_modes + mode;
+      const double dynamic = natural * natural - turn * turn;
+      const double viscous = 2.0 * damping_ratio * natural * turn;
+      parts.own.diagonal[i] = dynamic;
+      parts.own.coupling[i] = block % 2 == 1 ? -viscous : viscous;
+      if (std::hypot(dynamic, viscous) < 0.1 * (natural * natural + turn * turn)) {
+        parts.resonant.push_back(i);
+      }
+    }
+  }
+  parts.contact = std::make_shared<const contact::FewerDerivatives>(
+      contact::FewerDerivatives{numbers(n_few, n_modes, seed),
+                                contact * numbers(n_few * n_blocks, n_few * n_blocks, 100 + seed)});
+  BalanceEvaluation at;
+  at.jacobian = BalanceJacobian(std::move(parts));
+  at.parameter_derivative = numbers(size, 1, 200 + seed);
+  at.residual = VectorXd::Zero(size);
+  return at;
+}
+
+/// Away from every resonance, at one without damping, at two of one harmonic row.
+struct Case {
+  double frequency, damping_ratio, contact;
+};
+const std::vector<Case> cases{
+    {0.6, 1e-2, 4.0}, {3.0, 0.0, 4.0}, {1.0, 1e-3, 400.0}, {7.0, 0.1, 0.0}};
+
+TEST(BorderedFactors, FewUnknownsSolveWhatAllDo) {
+  const BranchVector row{numbers(size, 1, 3), 0.7};
+  const Scaling scaling{.x = 2e-3, .parameter = 3.0, .residual = 0.4};
+  const MatrixXd right = numbers(size + 1, 3, 9);
+  for (const Case& one : cases) {
+    for (const unsigned seed : {1U, 2U, 3U, 4U}) {
+      const BalanceEvaluation at = evaluation(one.frequency, one.damping_ratio, one.contact, seed);
+      ASSERT_NE(at.jacobian.parts(), nullptr);
+      const MatrixXd whole = bordered(at, row, scaling);
+      const BorderedFactors factors(at, row, scaling);
+      const MatrixXd expected = whole.lu().solve(right);
+      const MatrixXd turned = whole.transpose().lu().solve(right);
+      EXPECT_LT((factors.solve(right) - expected).norm(), 1e-9 * expected.norm()) << one.frequency;
+      EXPECT_LT((factors.solve_transposed(right) - turned).norm(), 1e-9 * turned.norm());
+      EXPECT_EQ(factors.sign_of_determinant(), whole.determinant() > 0.0 ? 1.0 : -1.0);
+      EXPECT_EQ(sign_of_determinant(at.jacobian),
+                at.jacobian.dense().determinant() > 0.0 ? 1.0 : -1.0);
+      const VectorXd b = right.col(0).head(size);
+      const VectorXd alone = at.jacobian.dense().lu().solve(b);
+      EXPECT_LT((solved(at.jacobian, b) - alone).norm(), 1e-9 * alone.norm());
+    }
+  }
+}
+
+TEST(BorderedFactors, AtAResonanceWithoutDampingNothingIsDividedBy) {
+  const BalanceEvaluation at = evaluation(3.0, 0.0, 4.0, 1);
+  const PairedDiagonal& own = at.jacobian.parts()->own;
+  EXPECT_EQ((own.diagonal.array() == 0.0 && own.coupling.array() == 0.0).count(), 4);
+}
+
+TEST(SchurComplement, IsThatOfTheWholeMatrix) {
+  const std::vector<Index> low{0, 2, 6, 8, 12, 14, 31, 37};  // pairs of sine and cosine
+  for (const Case& one : cases) {
+    const BalanceEvaluation at = evaluation(one.frequency, one.damping_ratio, one.contact, 5);
+    const MatrixXd expected = schur_complement(at.jacobian.dense(), low);
+    const MatrixXd condensed = schur_complement(at.jacobian, low);
+    EXPECT_LT((condensed - expected).norm(), 1e-9 * expected.norm()) << one.frequency;
+    // The inverse of a part of the inverse.
+    const MatrixXd inverse = at.jacobian.dense().inverse();
+    EXPECT_LT((condensed * inverse(low, low) - MatrixXd::Identity(8, 8)).norm(), 1e-7);
+  }
+}
+
+}  // namespace
+}  // namespace microslip::solver::test_condensed
