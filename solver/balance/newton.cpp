@@ -184,8 +184,34 @@ NewtonResult solve_newton(const ParametricSystem& system, const BranchVector& st
   return solve_newton(system, start, hold, scaling, options);
 }
 
+namespace {
+
+/// By two bordered systems, the second bordered by what the first has found.
+std::optional<BranchVector> condensed_null_vector(const BalanceEvaluation& at,
+                                                  const Scaling& scaling, double orientation) {
+  const Eigen::Index n = at.residual.size();
+  const Eigen::VectorXd unit = Eigen::VectorXd::Unit(n + 1, n);
+  BranchVector row{Eigen::VectorXd::Zero(n), 1.0};
+  double sign = 0.0;
+  for (int i = 0; i < 2; ++i) {
+    const BorderedFactors factors(at, row, scaling);
+    const Eigen::VectorXd y = factors.solve(unit);
+    if (!y.allFinite()) return std::nullopt;
+    const double size = y.norm();
+    row = {y.head(n) / size, y[n] / size};
+    sign = factors.sign_of_determinant();
+  }
+  if (sign * orientation < 0.0) row = {-row.x, -row.parameter};
+  return row;
+}
+
+}  // namespace
+
 std::optional<BranchVector> null_vector(const BalanceEvaluation& at, const Scaling& scaling,
                                         double orientation) {
+  if (at.jacobian.parts() != nullptr) {
+    if (auto found = condensed_null_vector(at, scaling, orientation)) return found;
+  }
   const Eigen::Index n = at.residual.size();
   const BranchVector none{Eigen::VectorXd::Zero(n), 0.0};
   Eigen::MatrixXd square = bordered(at, none, scaling);

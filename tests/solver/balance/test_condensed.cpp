@@ -93,6 +93,22 @@ TEST(BorderedFactors, AtAResonanceWithoutDampingNothingIsDividedBy) {
   EXPECT_EQ((own.diagonal.array() == 0.0 && own.coupling.array() == 0.0).count(), 4);
 }
 
+TEST(NullVector, OfFewUnknownsIsThatOfAll) {
+  const Scaling scaling{.x = 2e-3, .parameter = 3.0, .residual = 0.4};
+  for (const Case& one : cases) {
+    const BalanceEvaluation at = evaluation(one.frequency, one.damping_ratio, one.contact, 6);
+    BalanceEvaluation whole = at;
+    whole.jacobian = at.jacobian.dense();
+    for (const double orientation : {1.0, -1.0}) {
+      const auto found = null_vector(at, scaling, orientation);
+      const auto expected = null_vector(whole, scaling, orientation);
+      ASSERT_TRUE(found && expected);
+      EXPECT_LT((found->x - expected->x).norm(), 1e-9);
+      EXPECT_NEAR(found->parameter, expected->parameter, 1e-9);
+    }
+  }
+}
+
 TEST(SchurComplement, IsThatOfTheWholeMatrix) {
   const std::vector<Index> low{0, 2, 6, 8, 12, 14, 31, 37};  // pairs of sine and cosine
   for (const Case& one : cases) {
