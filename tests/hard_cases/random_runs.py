@@ -7,8 +7,10 @@ curves that fold and part.
 Right: a complete curve, or a diagnosis that has a name (how many of each is told); never a signal, code 1 or 5, a number that is none, or rows that are
 no solutions: a march through sampled time, which shares no code with the program, finds the forces of some rows again.
 
-usage: random_runs.py MICROSLIP WORK_FOLDER [N] [SEED]      prints a table; N scenes, 2000 where MICROSLIP_CAMPAIGNS=whole,
-else 7 (one harmonic of every kind and law); the seed is 1 by default. A scene is SEED.NUMBER and does not depend on N.
+usage: random_runs.py MICROSLIP WORK_FOLDER [N] [SEED]      N scenes, 2000 where MICROSLIP_CAMPAIGNS=whole, else 7 (one harmonic
+of every kind and law); the seed is 1 by default. A scene is SEED.NUMBER and does not depend on N. Prints a line for each scene that
+is not complete, or takes longer than the 99 % are to take, as it goes, and a table at the end, also where it is stopped by SIGINT or
+SIGTERM. Exit code 1: a scene was wrong; 3: stopped.
 """
 import collections
 import csv
@@ -30,6 +32,9 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 from program_run import whole_campaigns, without_plots
 
 CAP = 20  # s of processor time per scene
+LONG = 5  # s that 99 % of the scenes are to stay below
+OVER = f"over {CAP} s"
+UNBOUNDED = "unbounded"  # what has no end: counted apart from what is diagnosed
 # Of the largest force: sampled 4096 times a period, a contact that begins between two samples costs some 1e-6.
 BALANCE = 1e-4
 ROWS = 6  # of a curve that are marched through
@@ -198,11 +203,19 @@ def march(stiffness, mu, u, load, pressure):
     return friction
 
 
+class Stopped(Exception):
+    """By a signal."""
+
+
+def stop(number, _frame):
+    raise Stopped(signal.Signals(number).name)
+
+
 class Campaign:
     def __init__(self, program, work, seed):
         self.program, self.work, self.seed = program, work, seed
         self.outcomes = collections.defaultdict(collections.Counter)
-        self.seconds, self.notes, self.worst, self.n_rows, self.n_marched = [], [], 0.0, 0, 0
+        self.seconds, self.worst, self.n_rows, self.n_marched = [], 0.0, 0, 0
         shutil.rmtree(work, ignore_errors=True)
         os.makedirs(work)
 
@@ -213,15 +226,15 @@ class Campaign:
         with open(os.path.join(folder, "scene.toml"), "w", encoding="utf-8") as file:
             file.write(text)
         code, words, seconds = self.run(folder)
-        self.seconds.append(seconds)
         try:
             outcome = self.outcome(folder, code, words, modal if row[:2] == ("points", "constant") else None)
         except AssertionError as wrong:
             outcome = "WRONG"
             words = str(wrong)
+        self.seconds.append(seconds)
         self.outcomes[row][outcome] += 1
-        if outcome != "complete":
-            self.notes.append(f"{self.seed}.{number} ({' '.join(map(str, row))}): {outcome}: {words.strip()[:250]}")
+        if outcome != "complete" or seconds > LONG:
+            print(f"{self.seed}.{number} ({' '.join(map(str, row))}): {outcome}, {seconds:.1f} s: {words.strip()[:250]}", flush=True)
         if outcome == "complete":
             shutil.rmtree(folder)
 
@@ -230,14 +243,19 @@ class Campaign:
             process = subprocess.Popen([self.program, "run", "scene.toml", "-q", "-j", "1", "-o", "run", "--without", "plots"],
                                        cwd=folder, stdout=subprocess.DEVNULL, stderr=words, env=without_plots(),
                                        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (CAP, CAP + 5)))
-            _, status, used = os.wait4(process.pid, 0)
+            try:
+                _, status, used = os.wait4(process.pid, 0)
+            except Stopped:
+                process.kill()
+                process.wait()
+                raise
             process.returncode = os.waitstatus_to_exitcode(status)
             words.seek(0)
             return process.returncode, words.read(), used.ru_utime + used.ru_stime
 
     def outcome(self, folder, code, words, modal):
         if code == -signal.SIGXCPU:
-            return f"over {CAP} s"
+            return OVER
         if code < 0:
             raise AssertionError(f"ended by signal {-code}")
         if code not in (0, 2, 3):
@@ -268,32 +286,52 @@ class Campaign:
         if not error < BALANCE:
             raise AssertionError(f"{name}: forces {error:.1e} out of balance")
 
-    def report(self, n):
-        names = sorted({name for row in self.outcomes.values() for name in row} - {"complete", "WRONG"})
-        columns = ["tried", "complete", *names, "WRONG"]
-        print(f"{'':28s}" + "".join(f"{name:>14s}" for name in columns))
-        total = collections.Counter()
+    def report(self):
+        columns = ["tried", "complete", "diagnosed", UNBOUNDED, OVER, "WRONG"]
+        print(f"{'':28s}" + "".join(f"{name:>11s}" for name in columns))
+        total, named = collections.Counter(), collections.Counter()
         for row in sorted(self.outcomes):
-            counts = self.outcomes[row]
-            counts["tried"] = sum(counts.values())
+            counts = counted(self.outcomes[row])
             total += counts
-            print(f"{' '.join(map(str, row)):28s}" + "".join(f"{counts[name]:14d}" for name in columns))
-        print(f"{'all':28s}" + "".join(f"{total[name]:14d}" for name in columns))
+            named += self.outcomes[row]
+            print(f"{' '.join(map(str, row)):28s}" + "".join(f"{counts[name]:11d}" for name in columns))
+        print(f"{'all':28s}" + "".join(f"{total[name]:11d}" for name in columns))
+        print("diagnosed: " + (", ".join(f"{name} {named[name]}" for name in sorted(named) if name not in columns) or "none"))
+        bounded = total["tried"] - total[UNBOUNDED]
+        if bounded:
+            print(f"{100.0 * total['complete'] / bounded:.2f} % of those that have a bound are complete")
         times = sorted(self.seconds)
-        print(f"processor time per scene: median {times[n // 2]:.2f} s, 99 % below {times[min(n - 1, 99 * n // 100)]:.2f} s")
+        if times:
+            n = len(times)
+            print(f"processor time per scene: median {times[n // 2]:.2f} s, 99 % below {times[min(n - 1, 99 * n // 100)]:.2f} s")
         print(f"{self.n_marched} of {self.n_rows} rows marched through: forces balance within {self.worst:.1e}")
-        print("\n".join(self.notes))
         return 1 if total["WRONG"] else 0
+
+
+def counted(outcomes):
+    """The columns of a row: what has a name of its own is diagnosed."""
+    counts = collections.Counter()
+    for outcome, n in outcomes.items():
+        counts["tried"] += n
+        counts[outcome if outcome in ("complete", UNBOUNDED, OVER, "WRONG") else "diagnosed"] += n
+    return counts
 
 
 def main(program, work, n, seed):
     began = time.monotonic()
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, stop)
     campaign = Campaign(os.path.abspath(program), work, seed)
-    for number in range(n):
-        campaign.case(number)
-    print(f"scenes {seed}.0 to {seed}.{n - 1} in {time.monotonic() - began:.0f} s:")
-    return campaign.report(n)
+    number, stopped = 0, ""
+    try:
+        for number in range(n):
+            campaign.case(number)
+        number = n
+    except Stopped as by:
+        stopped = f", stopped by {by}"
+    print(f"the first {number} of scenes {seed}.0 to {seed}.{n - 1} in {time.monotonic() - began:.0f} s{stopped}:")
+    return campaign.report() or (3 if stopped else 0)
 
 
 if __name__ == "__main__":
