@@ -21,6 +21,7 @@ struct TimePoint {
   /// contact report; stable = 1 with the period of the excitation, not assessed else;
   /// `iterations` the periods integrated.
   ResponsePoint response;
+  bool stopped = false;           ///< by TimeOptions::stop, before there was a response
   bool periodic = false;          ///< with period 1 to 4
   int period_multiple = 0;        ///< 1: the period of the excitation; 0: none was found
   int n_periods = 0;              ///< integrated until then
@@ -30,7 +31,8 @@ struct TimePoint {
 };
 
 /// Integrates until the motion repeats itself or max_periods have passed, then records one period
-/// more (as many as the period multiple; the largest multiple when nothing repeats).
+/// more (as many as the period multiple; the largest multiple when nothing repeats). Where it is
+/// stopped before, the response is empty.
 /// @param state  where to start; left where the run ends, at θ = 0.
 /// @throws std::invalid_argument  as TimeSystem and make_stepper().
 /// @throws TimeError  as TimeStepper::advance_period().

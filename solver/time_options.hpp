@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 namespace microslip::solver {
 
@@ -28,6 +29,8 @@ struct TimeOptions {
   /// 1000 + 100 per point.
   int max_events = 0;
   int n_harmonics = 5;  ///< H of the result, ≥ 1
+  /// Asked after each period: true ends the integration, with TimePoint::stopped.
+  std::function<bool()> stop;
 };
 
 }  // namespace microslip::solver

@@ -384,8 +384,9 @@ CurveResult traced(const ReducedModel& model, const SceneDescription& scene,
       if (!scene.judges_stability) point.stability = solver::Stability::not_assessed;
       return point;
     };
-    result.curve = integrate_curve(integrated_scene(model, *scene.response, load), scene,
-                                   [&](const auto& point) { return observe(in_modes(point)); });
+    result.curve = integrate_curve(
+        integrated_scene(model, *scene.response, load), scene,
+        [&](const auto& point) { return observe(in_modes(point)); }, options.stop);
     for (solver::ResponsePoint& point : result.curve.points) point = in_modes(point);
     result.integrated = true;
     const double all = std::numeric_limits<double>::infinity();
@@ -446,8 +447,8 @@ solver::ResponseCurve integrated_elsewhere(const ReducedModel& model, const Scen
   if (embedding.size() > 0) begin.rows() = point.q.rows() * embedding.transpose();
   const Eigen::VectorXd factors = slowing_of(model, *scene.response);
   begin.rows() *= factors.cwiseInverse().asDiagonal();
-  const auto goes_on = [](const auto&) { return !interrupt_requested() && !cut_short(); };
-  return integrate_curve(integrated_scene(model, *scene.response, load), scene, goes_on, &begin);
+  const auto stop = [] { return interrupt_requested() || cut_short(); };
+  return integrate_curve(integrated_scene(model, *scene.response, load), scene, {}, stop, &begin);
 }
 
 const solver::ResponsePoint* highest_peak(const solver::ResponseCurve& curve) {

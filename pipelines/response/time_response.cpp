@@ -25,9 +25,10 @@ std::vector<double> swept_frequencies(const ResponseDescription& response) {
   return frequencies;
 }
 
-solver::TimeOptions time_options(const SceneDescription& scene) {
+solver::TimeOptions time_options(const SceneDescription& scene, const std::function<bool()>& stop) {
   const ResponseDescription& response = *scene.response;
   solver::TimeOptions options;
+  options.stop = stop;
   options.n_harmonics = std::max(scene.settings.harmonics.highest, least_harmonics_of_time);
   if (response.steps_per_period > 0) {
     options.method = solver::TimeMethod::rk4;
@@ -66,9 +67,18 @@ struct Irregular {
   }
 };
 
+/// Beside what is told of the motions until then.
+void tell_stop(double frequency, solver::ResponseCurve& curve) {
+  curve.complete = false;
+  curve.diagnosis = solver::Diagnosis::interrupted;
+  curve.message = fmt::format("stopped at {:.8g} Hz{}{}", frequency / (2.0 * std::numbers::pi),
+                              curve.message.empty() ? "" : "; ", curve.message);
+}
+
 solver::ResponseCurve sweep(const solver::Scene& scene, const SceneDescription& description,
-                            const solver::PointObserver& observe, const contact::Harmonics* begin) {
-  const solver::TimeOptions options = time_options(description);
+                            const solver::PointObserver& observe, const std::function<bool()>& stop,
+                            const contact::Harmonics* begin) {
+  const solver::TimeOptions options = time_options(description, stop);
   solver::ResponseCurve curve;
   Irregular irregular;
   solver::TimeState state;
@@ -80,6 +90,11 @@ solver::ResponseCurve sweep(const solver::Scene& scene, const SceneDescription& 
     try {
       const solver::TimePoint point = solver::integrate_to_steady_state(system, options, state);
       curve.iterations += point.n_periods;
+      if (point.stopped) {
+        irregular.tell(options, curve);
+        tell_stop(frequency, curve);
+        return curve;
+      }
       irregular.add(point);
       if (!point.periodic) continue;
       curve.points.push_back(point.response);
@@ -90,7 +105,8 @@ solver::ResponseCurve sweep(const solver::Scene& scene, const SceneDescription& 
       return curve;
     }
     if (observe && !observe(curve.points.back())) {
-      curve.diagnosis = solver::Diagnosis::interrupted;
+      irregular.tell(options, curve);
+      tell_stop(frequency, curve);
       return curve;
     }
   }
@@ -117,10 +133,11 @@ void require_steps(const solver::Scene& scene, const ResponseDescription& respon
 solver::ResponseCurve integrate_curve(const solver::Scene& scene,
                                       const SceneDescription& description,
                                       const solver::PointObserver& observe,
+                                      const std::function<bool()>& stop,
                                       const contact::Harmonics* begin) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
-  solver::ResponseCurve curve = sweep(scene, description, observe, begin);
+  solver::ResponseCurve curve = sweep(scene, description, observe, stop, begin);
   curve.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   return curve;
 }

@@ -3,6 +3,8 @@
 /// its begin to its end, as a response curve like any other.
 #pragma once
 
+#include <functional>
+
 #include "contact/harmonics.hpp"
 #include "pipelines/description/scene_description.hpp"
 #include "solver/continuation.hpp"
@@ -20,11 +22,13 @@ void require_steps(const solver::Scene& scene, const ResponseDescription& respon
 /// Periodic motions only become points; the others are counted in the message (diagnosis
 /// `not-periodic`).
 /// @param scene  with `transient`.
+/// @param stop   asked after each period: true ends the curve with the points it has.
 /// @param begin  a motion at the first frequency, on which sliders follow for two periods first;
 ///               nullptr: from rest.
 [[nodiscard]] solver::ResponseCurve integrate_curve(const solver::Scene& scene,
                                                     const SceneDescription& description,
                                                     const solver::PointObserver& observe,
+                                                    const std::function<bool()>& stop,
                                                     const contact::Harmonics* begin = nullptr);
 
 }  // namespace microslip::pipelines

@@ -68,12 +68,15 @@ TimePoint run(const TimeSystem& system, TimeStepper& stepper, const TimeOptions&
   PeriodicityTest test;
   PeriodState largest;
   TimePoint point;
+  const auto is_stopped = [&] { return options.stop && options.stop(); };
   while (point.n_periods < options.max_periods) {
     stepper.advance_period(state, nullptr);
     PeriodState now = period_state(system, state, stepper);
     keep_largest(system, now, largest);
     test.add(std::move(now));
     ++point.n_periods;
+    point.stopped = is_stopped();
+    if (point.stopped) return point;
     if (point.n_periods < options.min_periods) continue;
     point.period_multiple = test.multiple(options.periodicity_tolerance);
     if (point.period_multiple > 0) break;
@@ -83,7 +86,11 @@ TimePoint run(const TimeSystem& system, TimeStepper& stepper, const TimeOptions&
       point.periodic ? point.period_multiple : static_cast<int>(PeriodicityTest::largest_multiple);
   const long events_before = stepper.n_events();
   TimeRecorder recorder(system, options.n_harmonics, state.memory);
-  for (int i = 0; i < n_recorded; ++i) stepper.advance_period(state, &recorder);
+  for (int i = 0; i < n_recorded; ++i) {
+    stepper.advance_period(state, &recorder);
+    point.stopped = i + 1 < n_recorded && is_stopped();
+    if (point.stopped) return point;
+  }
   point.n_events = stepper.n_events() - events_before;
   point.response.residual =
       test.distance(static_cast<std::size_t>(std::max(1, point.period_multiple)));

@@ -50,6 +50,10 @@ TEST(TimeBudget, EndsACurveByItsName) {
     EXPECT_NE(cut.curve.message.find("response.time_budget, 1e-09 s, is over"), std::string::npos)
         << cut.curve.message;
     EXPECT_LT(cut.curve.points.size(), whole.curve.points.size());
+    if (method == "time") {
+      EXPECT_TRUE(cut.curve.points.empty());  // over after the first period
+      continue;
+    }
     ASSERT_FALSE(cut.curve.points.empty());
     EXPECT_EQ(cut.curve.points.front().amplitude, whole.curve.points.front().amplitude);
   }

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -42,13 +44,13 @@ frequency = 26.9
 method = "time"
 )toml";
 
-solver::ResponseCurve curve_of(const Overrides& overrides) {
+solver::ResponseCurve curve_of(const Overrides& overrides, const std::function<bool()>& stop = {}) {
   const SceneDescription scene = parse_scene(bilinear, "scene.toml", "/nowhere", overrides);
   ReducedModel model = reduced_model(scene);
   model.effects = contact_effects(model, scene);
   solver::Scene problem = solver_scene(model, 1.0);
   problem.transient = contact_of(model, 1.0).transient_force();
-  return integrate_curve(problem, scene, {});
+  return integrate_curve(problem, scene, {}, stop);
 }
 
 TEST(TimeResponse, AMotionOfTwicePeriodIsTold) {
@@ -64,6 +66,24 @@ TEST(TimeResponse, AMotionOfTwicePeriodIsTold) {
             std::string::npos)
       << doubled.message;
   EXPECT_EQ(doubled.points[0].stability, solver::Stability::not_assessed);
+}
+
+TEST(TimeResponse, IsStoppedWithinAPointAndKeepsThoseBefore) {
+  const Overrides sweep{"response.frequency=[25.0, 26.9]", "response.points=3",
+                        "modal.damping_ratio=0.05"};
+  const solver::ResponseCurve whole = curve_of(sweep);
+  ASSERT_EQ(whole.points.size(), 3U);
+  const int before = whole.points[0].iterations + whole.points[1].iterations;
+  int periods = 0;
+  const solver::ResponseCurve cut = curve_of(sweep, [&] { return ++periods == before + 5; });
+  EXPECT_EQ(periods, before + 5);  // none is integrated after that
+  EXPECT_FALSE(cut.complete);
+  EXPECT_EQ(cut.diagnosis, solver::Diagnosis::interrupted);
+  EXPECT_NE(cut.message.find("stopped at 26.9 Hz"), std::string::npos) << cut.message;
+  ASSERT_EQ(cut.points.size(), 2U);
+  for (std::size_t i = 0; i < cut.points.size(); ++i) {
+    EXPECT_EQ(cut.points[i].amplitude, whole.points[i].amplitude);
+  }
 }
 
 TEST(TimeResponse, FixedStepsConvergeToLocatedEvents) {
