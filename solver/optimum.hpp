@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,20 @@
 
 namespace microslip::solver {
 
+/// Why a search has no best value.
+enum class NotFound : std::uint8_t {
+  none,                ///< there is one
+  out_of_time,         ///< the search was stopped
+  no_solution,         ///< for any value
+  unsettled,           ///< higher peaks than those followed kept appearing
+  flat,                ///< the smallest amplitude is that of many values
+  at_bound,            ///< of the values searched
+  no_solution_beside,  ///< there is none at the values beside the smallest amplitude
+  incomplete_curve,    ///< at the smallest amplitude
+  unsolved_peak,       ///< the same
+  count                ///< of these
+};
+
 struct Optimum {
   PeakOfParameter best;
   std::vector<PeakOfParameter> trace;  ///< all values solved for, sorted by parameter
@@ -21,7 +36,8 @@ struct Optimum {
   /// Where the minimum does not depend on the parameter: the interval over which it is the same;
   /// `best` is then one of many.
   std::optional<std::array<double, 2>> flat;
-  std::string objection;  ///< why not found; empty: found
+  NotFound reason = NotFound::none;  ///< of `objection`
+  std::string objection;             ///< why not found; empty: found
   /// The verdict: settled, or the objection; the interval that is as good to 1 % among the values
   /// solved for, minima nearly as good elsewhere, and whether an end of the frequency range counts.
   std::string message;

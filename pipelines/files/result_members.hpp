@@ -64,10 +64,10 @@ auto members(Is<PeakOfParameter> auto& value) {
   return std::tie(parameter, frequency, amplitude, whole_curve, place, detached);
 }
 auto members(Is<Optimum> auto& value) {
-  auto& [best, trace, found, flat, objection, message, notes, warnings, orders, n_curves,
+  auto& [best, trace, found, flat, reason, objection, message, notes, warnings, orders, n_curves,
          iterations, evaluations, seconds] = value;
-  return std::tie(best, trace, found, flat, objection, message, notes, warnings, orders, n_curves,
-                  iterations, evaluations, seconds);
+  return std::tie(best, trace, found, flat, reason, objection, message, notes, warnings, orders,
+                  n_curves, iterations, evaluations, seconds);
 }
 }  // namespace solver
 

@@ -29,6 +29,7 @@
 #include "pipelines/record/run_folder.hpp"
 #include "pipelines/record/run_messages.hpp"
 #include "pipelines/response/effects_of_curves.hpp"
+#include "pipelines/response/end_remedies.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/exit_code.hpp"
@@ -43,6 +44,12 @@ using namespace std::chrono_literals;
 
 constexpr auto patience = 600ms;  // what a stage may take to notice an interrupt by itself
 constexpr double hz_per_rad = 0.5 / std::numbers::pi;
+
+/// Whether the time, or the points, that a curve may take were not enough.
+bool any_is_spent(const std::vector<CurveSummary>& curves) {
+  return std::ranges::find(curves, solver::Diagnosis::budget, &CurveSummary::diagnosis) !=
+         curves.end();
+}
 
 /// Where the summary of an earlier run is kept until this one has begun.
 std::filesystem::path earlier_summary(const std::filesystem::path& folder) {
@@ -420,6 +427,7 @@ void RunRecord::keep_unfinished() {
     solver::ResponseCurve& curve = result.curve;
     curve.diagnosis = solver::Diagnosis::interrupted;
     curve.message = fmt::format("stopped at {:.8g} Hz", hz_per_rad * curve.points.back().frequency);
+    tell_remedy(remedy_of(curve.diagnosis, ResponseDescription::Method::harmonic_balance), curve);
     progress_.info(fmt::format("curve {}: {} points, incomplete: interrupted: {}", name,
                                curve.points.size(), curve.message));
     summary_.curves.push_back(summarise(result));
@@ -559,13 +567,16 @@ void RunRecord::tell_failure(ExitCode code, const std::string& message) {
 
 std::string RunRecord::ending() const {
   if (summary_.accuracy && !summary_.accuracy->message.empty()) return summary_.accuracy->message;
-  return was_cut_short() ? "out of time: what was solved until then is there" : "";
+  if (was_cut_short()) return "out of time: what was solved until then is there";
+  return any_is_spent(summary_.curves)
+             ? "the budget of a curve is over: what was solved until then is there"
+             : "";
 }
 
 ExitCode RunRecord::verdict() const {
   const bool complete = std::all_of(summary_.curves.begin(), summary_.curves.end(),
                                     [](const CurveSummary& curve) { return curve.complete; });
-  if (was_cut_short()) return ExitCode::exhausted;
+  if (was_cut_short() || any_is_spent(summary_.curves)) return ExitCode::exhausted;
   return complete ? ExitCode::complete : ExitCode::incomplete;
 }
 

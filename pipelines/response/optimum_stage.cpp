@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "pipelines/model/contact_factors.hpp"
+#include "pipelines/response/end_remedies.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/in_parallel.hpp"
@@ -117,8 +118,10 @@ solver::Optimum OptimumSearch::search(const Factors& factors, int jobs) {
     range.residual_tolerance = std::max(range.residual_tolerance, closely_enough);
   }
   options.together = [jobs](std::size_t n, const auto& task) { in_parallel(n, jobs, task); };
-  return solver::minimise_peak([&](double value) { return scene_at(value, factors); }, range,
-                               options);
+  solver::Optimum optimum =
+      solver::minimise_peak([&](double value) { return scene_at(value, factors); }, range, options);
+  tell_remedy(remedy_of(optimum.reason), optimum);
+  return optimum;
 }
 
 std::string OptimumSearch::warning() const {

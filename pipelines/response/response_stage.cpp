@@ -19,6 +19,7 @@
 #include "pipelines/model/curve_load.hpp"
 #include "pipelines/model/slow_attachment.hpp"
 #include "pipelines/model/tilted_area.hpp"
+#include "pipelines/response/end_remedies.hpp"
 #include "pipelines/response/resonating_shapes.hpp"
 #include "pipelines/response/sampled_curve.hpp"
 #include "pipelines/response/time_response.hpp"
@@ -345,12 +346,14 @@ solver::ResponseCurve balanced_curve(const ReducedModel& model, const SceneDescr
 }
 
 /// That its time was over is why it has no end, where nothing else has stopped it.
-void tell_time_is_over(double budget, solver::ResponseCurve& curve) {
-  if (curve.diagnosis != solver::Diagnosis::interrupted) return;
-  if (interrupt_requested() || cut_short()) return;
+/// @return  whether it is.
+bool tell_time_is_over(double budget, solver::ResponseCurve& curve) {
+  if (curve.diagnosis != solver::Diagnosis::interrupted) return false;
+  if (interrupt_requested() || cut_short()) return false;
   curve.diagnosis = solver::Diagnosis::budget;
   curve.message = fmt::format("{}{}response.time_budget, {:g} s, is over", curve.message,
                               curve.message.empty() ? "" : ": ", budget);
+  return true;
 }
 
 solver::ResponseCurve linear_curve(const ReducedModel& model, LimitName limit,
@@ -428,10 +431,12 @@ CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene
   options.stop = [&limit, stop = options.stop] { return limit.is_over() || stop(); };
   const auto within = [&](const auto& point) { return !limit.is_over() && observe(point); };
   CurveResult result = traced(model, scene, request, within, options, near);
-  if (limit.is_over()) {
-    tell_time_is_over(budget, result.curve);
-    return result;
-  }
+  const bool is_over = limit.is_over();
+  const bool by_time = is_over && tell_time_is_over(budget, result.curve);
+  tell_remedy(
+      by_time ? remedy_of_time() : remedy_of(result.curve.diagnosis, scene.response->method),
+      result.curve);
+  if (is_over) return result;
   const auto* load = std::get_if<double>(&result.load);
   if (load != nullptr && !result.integrated) {
     check_harmonics(model, scene, *load, result, [&limit] { return limit.is_over(); });
@@ -463,14 +468,14 @@ const solver::ResponsePoint* highest_peak(const solver::ResponseCurve& curve) {
   return nullptr;
 }
 
-std::vector<NamedMap> curve_maps(const ReducedModel& model, const SceneDescription& scene,
-                                 const CurveResult& result) {
-  std::vector<NamedMap> maps;
+CurveMaps curve_maps(const ReducedModel& model, const SceneDescription& scene,
+                     const CurveResult& result) {
+  CurveMaps drawn;
   const auto* load = std::get_if<double>(&result.load);
-  if (load == nullptr || model.patches.empty()) return maps;
+  if (load == nullptr || model.patches.empty()) return drawn;
   const auto add = [&](const std::string& suffix, const solver::ResponsePoint& point) {
     for (NamedMap& map : maps_of(model, scene, *load, result.name + "_" + suffix, point)) {
-      maps.push_back(std::move(map));
+      drawn.maps.push_back(std::move(map));
     }
   };
   const ReducedModel solved = model_of(model, result.curve);
@@ -487,6 +492,12 @@ std::vector<NamedMap> curve_maps(const ReducedModel& model, const SceneDescripti
       for (std::size_t i = 0; i < points.size(); ++i) {
         add(fmt::format("{:g}Hz_{}", *frequency, i + 1), points[i]);
       }
+      if (points.empty()) {
+        drawn.missing.push_back(
+            fmt::format("curve {}: no map at {:g} Hz, where it has no solution: set response.maps "
+                        "to frequencies that it passes, or response.frequency to a range with it",
+                        result.name, *frequency));
+      }
     } else if (std::get<MapName>(entry) == MapName::peak) {
       if (const auto* peak = highest_peak(result.curve)) add("peak", *peak);
     } else {
@@ -496,7 +507,7 @@ std::vector<NamedMap> curve_maps(const ReducedModel& model, const SceneDescripti
       }
     }
   }
-  return maps;
+  return drawn;
 }
 
 }  // namespace microslip::pipelines

@@ -82,11 +82,15 @@ void check_harmonics(
     ReducedModel model, const SceneDescription& scene, double load, CurveResult& result,
     const std::function<bool()>& stop = [] { return false; });
 
+struct CurveMaps {
+  std::vector<NamedMap> maps;
+  std::vector<std::string> missing;  ///< which map there is not, why, and what to set
+};
+
 /// Contact maps the scene asks for on this curve: at its highest peak, its folds, or all solutions
 /// of the branch at given frequencies (numbered in branch order).
-[[nodiscard]] std::vector<NamedMap> curve_maps(const ReducedModel& model,
-                                               const SceneDescription& scene,
-                                               const CurveResult& result);
+[[nodiscard]] CurveMaps curve_maps(const ReducedModel& model, const SceneDescription& scene,
+                                   const CurveResult& result);
 
 /// The highest solved peak; without one the largest point. nullptr: no points.
 [[nodiscard]] const solver::ResponsePoint* highest_peak(const solver::ResponseCurve& curve);

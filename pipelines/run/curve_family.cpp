@@ -193,12 +193,17 @@ void draw_maps(const ReducedModel& model, const SceneDescription& scene,
       late = true;
       return;
     }
-    for (const NamedMap& map : curve_maps(model, scene, curves[i])) record.keep_map(model, map, i);
+    const CurveMaps drawn = curve_maps(model, scene, curves[i]);
+    for (const NamedMap& map : drawn.maps) record.keep_map(model, map, i);
+    for (const std::string& reason : drawn.missing) record.progress().warning(reason);
     if (const auto* peak = highest_peak(curves[i].curve)) {
       record.keep_motion(curves[i].name + "_peak", *peak);
     }
   });
-  if (late) record.progress().warning("out of time: maps and motions at the peaks are left out");
+  if (late)
+    record.progress().warning(
+        "out of time: maps and motions at the peaks are left out; give --budget more, or set "
+        "response.maps = []");
 }
 
 }  // namespace microslip::pipelines

@@ -145,8 +145,6 @@ void check(const OptimumOptions& options) {
   }
 }
 
-constexpr const char* out_of_time = "out of time: the search was stopped before its end";
-
 class Search {
  public:
   Search(const SceneFamily& family, const ContinuationOptions& range, const OptimumOptions& options)
@@ -415,31 +413,46 @@ class Search {
            std::abs(here - position(options_.upper)) <= rounding;
   }
 
-  /// Why the lowest peak is not at the best value; empty: it is.
-  [[nodiscard]] std::string objection() const {
-    if (is_stopped_) return out_of_time;
-    if (!is_settled_) {
-      return sentence("not settled: peaks beside those followed kept appearing, the last near ",
-                      result_.best.parameter);
-    }
-    if (result_.flat) {
-      return sentence("flat: the smallest amplitude is the same from ", (*result_.flat)[0]) +
-             sentence(" to ", (*result_.flat)[1]);
-    }
-    if (at_bound())
-      return sentence("the smallest amplitude lies at the bound ", result_.best.parameter);
+  /// Why the lowest peak is not at the best value.
+  [[nodiscard]] NotFound reason() const {
+    if (is_stopped_) return NotFound::out_of_time;
+    if (!is_settled_) return NotFound::unsettled;
+    if (result_.flat) return NotFound::flat;
+    if (at_bound()) return NotFound::at_bound;
     const double here = result_.best.parameter;
-    if (here == result_.trace.front().parameter || here == result_.trace.back().parameter) {
-      return sentence("beside the smallest amplitude, at ", here) +
-             ", the values searched have no solution";
-    }
-    if (!result_.best.whole_curve) {
-      return sentence("the curve at the smallest amplitude, at ", here) +
-             ", is incomplete: a higher peak may be missing";
-    }
-    if (result_.best.place == PeakPlace::unsolved) {
-      return sentence("the peak of the curve at the smallest amplitude, at ", here) +
-             ", was not solved for";
+    if (here == result_.trace.front().parameter || here == result_.trace.back().parameter)
+      return NotFound::no_solution_beside;
+    if (!result_.best.whole_curve) return NotFound::incomplete_curve;
+    return result_.best.place == PeakPlace::unsolved ? NotFound::unsolved_peak : NotFound::none;
+  }
+
+  [[nodiscard]] std::string objection() const {
+    const double here = result_.best.parameter;
+    switch (result_.reason) {
+      case NotFound::none:
+      case NotFound::count:
+        break;
+      case NotFound::out_of_time:
+        return "out of time: the search was stopped before its end";
+      case NotFound::no_solution:
+        return "no solution was found for any value";
+      case NotFound::unsettled:
+        return sentence("not settled: peaks beside those followed kept appearing, the last near ",
+                        here);
+      case NotFound::flat:
+        return sentence("flat: the smallest amplitude is the same from ", (*result_.flat)[0]) +
+               sentence(" to ", (*result_.flat)[1]);
+      case NotFound::at_bound:
+        return sentence("the smallest amplitude lies at the bound ", here);
+      case NotFound::no_solution_beside:
+        return sentence("beside the smallest amplitude, at ", here) +
+               ", the values searched have no solution";
+      case NotFound::incomplete_curve:
+        return sentence("the curve at the smallest amplitude, at ", here) +
+               ", is incomplete: a higher peak may be missing";
+      case NotFound::unsolved_peak:
+        return sentence("the peak of the curve at the smallest amplitude, at ", here) +
+               ", was not solved for";
     }
     return "";
   }
@@ -454,8 +467,8 @@ class Search {
     result_.iterations = trace.iterations;
     result_.contact_evaluations = trace.contact_evaluations;
     if (result_.trace.empty()) {
-      result_.message = result_.objection =
-          is_stopped_ ? out_of_time : "no solution was found for any value";
+      result_.reason = is_stopped_ ? NotFound::out_of_time : NotFound::no_solution;
+      result_.message = result_.objection = objection();
       return std::move(result_);
     }
     // The one confirmed: others of the valley are lower by rounding at most.
@@ -463,9 +476,10 @@ class Search {
         result_.trace.begin(), result_.trace.end(),
         [&](const PeakOfParameter& one) { return one.parameter == result_.best.parameter; });
     result_.flat = flat_interval(result_.trace);
+    result_.reason = reason();
     result_.objection = objection();
-    result_.found = result_.objection.empty();
-    result_.message = result_.objection == out_of_time
+    result_.found = result_.reason == NotFound::none;
+    result_.message = result_.reason == NotFound::out_of_time
                           ? lowest_so_far(result_.best)  // what lies beside it was not solved
                           : valley(result_.trace, result_.best);
     if (!result_.found) result_.message = result_.objection + "; " + result_.message;
@@ -543,7 +557,7 @@ void add_work(Optimum& sum, const PeakWork& work) {
   sum.contact_evaluations += work.contact_evaluations;
 }
 
-bool is_stopped(const Optimum& one) { return one.objection == out_of_time; }
+bool is_stopped(const Optimum& one) { return one.reason == NotFound::out_of_time; }
 
 /// Searches again as long as the peak at the best value asks for harmonics that those of other
 /// values have not. Stopped in the middle it is what the search before has found.

@@ -258,7 +258,7 @@ class Campaign:
             return OVER
         if code < 0:
             raise AssertionError(f"ended by signal {-code}")
-        if code not in (0, 2, 3):
+        if code not in (0, 2, 3, 4):
             raise AssertionError(f"exit code {code}: {words}")
         with open(os.path.join(folder, "run", "summary.json"), encoding="utf-8") as file:
             said = file.read()
@@ -272,7 +272,10 @@ class Campaign:
         curves = json.loads(said)["curves"]
         if not all(curve["complete"] or curve["diagnosis"] for curve in curves):
             raise AssertionError("incomplete without a name")
-        return next((curve["diagnosis"] for curve in curves if not curve["complete"]), "complete")
+        outcome = next((curve["diagnosis"] for curve in curves if not curve["complete"]), "complete")
+        if (outcome == "complete") != (code == 0):
+            raise AssertionError(f"{outcome}, and exit code {code}")
+        return outcome
 
     def march(self, name, table, modal):
         rows = np.array([[float(cell) for cell in row] for row in list(csv.reader(table.splitlines()))[1:]])

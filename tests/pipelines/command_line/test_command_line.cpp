@@ -181,6 +181,23 @@ TEST_F(Program, SaysWhyACurveIsIncompleteHoweverQuiet) {
   EXPECT_NE(outcome.err.find("no-start"), std::string::npos) << outcome.err;
 }
 
+TEST_F(Program, EndsACurveWhoseTimeIsOverWithWhatItHas) {
+  write(path("scene.toml"), scene_text);
+  for (const std::string method : {"harmonic_balance", "time"}) {
+    const Outcome outcome =
+        run("run scene.toml -q -o " + method + " --set response.method=" + method +
+            " --set 'response.time_budget=1e-9 s'");
+    EXPECT_EQ(outcome.code, 4) << outcome.err;
+    EXPECT_NE(outcome.err.find("response.time_budget, 1e-09 s, is over; set it to more"),
+              std::string::npos)
+        << outcome.err;
+    const Json summary = Json::parse(content_of(path(method + "/summary.json")));
+    EXPECT_EQ(summary["exit_code"], 4);
+    EXPECT_EQ(summary["curves"].at(0)["diagnosis"], "budget");
+    EXPECT_TRUE(exists(method + "/curves/scale_1.csv"));
+  }
+}
+
 TEST_F(Program, WritesTheEndsOfTheRangeAsTheyWereGiven) {
   write(path("scene.toml"), scene_text);
   EXPECT_EQ(
