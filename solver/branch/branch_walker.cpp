@@ -23,6 +23,7 @@ constexpr double tip_step = 1e-5;
 constexpr double kink_correction =
     10.0;                              // of the step: a turn by 84°; beyond, it is another branch
 constexpr double cosine_limit = 0.93;  // 21.5°: beyond, the curve would look angular
+constexpr double least_bent = 0.5;     // 60°: beyond, a branch that crosses another is not told
 constexpr double angle_wanted = 0.13;  // rad per step
 // Where the predictor has learned the bend, and a plot as well.
 constexpr double learned_angle = 0.2;
@@ -108,17 +109,30 @@ bool BranchWalker::smooth(const Trial& trial) const {
   return same && trial.cosine > cosine_limit && trial.correction < correction_limit;
 }
 
+/// What lies behind a trial, three steps back along its own tangent.
+BranchWalker::Trial BranchWalker::behind(const Trial& trial) {
+  const double distance = 3.0 * step_;
+  BranchVector back = rescaled(trial.point.tangent, trial.point.scaling, now_.scaling);
+  reverse(back);
+  return corrected(moved(trial.point.solution.point, back, distance, now_.scaling), back, distance,
+                   10);
+}
+
 /// Where slip begins or ends two parts of a branch may meet in a tip so sharp that a step goes from
 /// one to the other all but straight on. There the determinant has the other sign; so it has
 /// beyond a branch point, but not any more for who goes back from there past it.
 bool BranchWalker::beyond_a_tip(const Trial& trial) {
-  const double distance = 3.0 * step_;
-  BranchVector back = rescaled(trial.point.tangent, trial.point.scaling, now_.scaling);
-  reverse(back);
-  const Trial behind = corrected(moved(trial.point.solution.point, back, distance, now_.scaling),
-                                 back, distance, 10);
-  return behind.converged && behind.orientation == orientation_ && behind.cosine > cosine_limit &&
-         behind.correction < correction_limit;
+  const Trial back = behind(trial);
+  return back.converged && back.orientation == orientation_ && back.cosine > cosine_limit &&
+         back.correction < correction_limit;
+}
+
+/// Another branch may cross this one where it bends: who goes back from there is on the part that
+/// was walked, the other way round.
+bool BranchWalker::crosses_bent(const Trial& trial) {
+  if (residual_ || trial.cosine < least_bent || trial.cosine > cosine_limit) return false;
+  const Trial back = behind(trial);
+  return back.converged && back.orientation == -orientation_ && back.cosine > least_bent;
 }
 
 void BranchWalker::accept(Trial trial) {
@@ -127,7 +141,7 @@ void BranchWalker::accept(Trial trial) {
   before_orientation_ = orientation_;
   const bool turned =
       trial.orientation != 0.0 && orientation_ != 0.0 && trial.orientation != orientation_;
-  if (turned && (trial.cosine < cosine_limit || trial.tip)) {
+  if (turned && ((trial.cosine < cosine_limit && !trial.bent) || trial.tip)) {
     reverse(trial.point.tangent);
   } else if (trial.orientation != 0.0) {
     orientation_ = trial.orientation;
@@ -179,6 +193,7 @@ bool BranchWalker::advance() {
     const bool kink = step_ < sharp && trial.correction < kink_correction;
     if (trial.converged && (smooth(trial) || kink)) {
       trial.tip = against && beyond_a_tip(trial);
+      trial.bent = trial.orientation * orientation_ < 0.0 && crosses_bent(trial);
       if (failed) remember(Remedy::shorter_step);
       const double distance = step_;
       choose_step(trial);

@@ -86,7 +86,8 @@ class BranchWalker {
     double correction = 0.0;  ///< distance from predictor to corrected point, over the step
     double orientation = 0.0;
     bool converged = false;
-    bool tip = false;  ///< the branch comes back beside itself, against the step
+    bool tip = false;   ///< the branch comes back beside itself, against the step
+    bool bent = false;  ///< another branch crosses this one, at a kink of it
   };
 
   /// From now() along its tangent, or along another direction that leaves a kink.
@@ -96,7 +97,9 @@ class BranchWalker {
   [[nodiscard]] Trial corrected(const BranchVector& predicted, const BranchVector& direction,
                                 double length, int max_iterations);
   [[nodiscard]] bool smooth(const Trial& trial) const;
+  [[nodiscard]] Trial behind(const Trial& trial);
   [[nodiscard]] bool beyond_a_tip(const Trial& trial);
+  [[nodiscard]] bool crosses_bent(const Trial& trial);
   void accept(Trial trial);
   void choose_step(const Trial& trial);
   /// The trial, or a shorter one that changes fewer states. @param distance  of the trial.

@@ -193,16 +193,19 @@ bool CurveTracer::walk(BranchWalker& walker) {
   return false;
 }
 
-BranchWalker CurveTracer::walker_from(NewtonResult start) {
+double CurveTracer::forward() const {
+  return options_.frequency_end > options_.frequency_begin ? 1.0 : -1.0;
+}
+
+BranchWalker CurveTracer::walker_from(NewtonResult start, double way) {
   const ParametricSystem system = [this](const Eigen::VectorXd& x, double frequency) {
     return balance_->evaluate(x, frequency);
   };
   walker_evaluations_ = walker_iterations_ = 0;
   walker_readings_ = walker_cuts_ = 0;
   n_remedies_ = 0;
-  const double forward = options_.frequency_end > options_.frequency_begin ? 1.0 : -1.0;
   BranchWalker walker(
-      system, [this](const NewtonResult& at) { return scaling_at(at); }, std::move(start), forward,
+      system, [this](const NewtonResult& at) { return scaling_at(at); }, std::move(start), way,
       options_.residual_tolerance);
   if (options_.corrector == ContinuationOptions::Corrector::few_jacobians) {
     walker.economise([this](const Eigen::VectorXd& x, double frequency) {
@@ -217,21 +220,45 @@ BranchWalker CurveTracer::walker_from(NewtonResult start) {
   return walker;
 }
 
-/// The ladder above the walker's own remedies: the plain corrector at a fixed frequency, then
-/// homotopies from the linear limits, at growing distances.
-std::optional<NewtonResult> CurveTracer::restart(const BranchWalker& stalled) {
-  const BranchVector& from = stalled.now().solution.point;
+/// The plain corrector on the branch as it was walked, beyond the place of the stall.
+/// @return empty: it was walked towards the end of the range, or nothing is found.
+std::optional<CurveTracer::Restart> CurveTracer::restart_against_the_range(
+    const BranchWalker& stalled) {
+  const WalkerPoint& from = stalled.now();
+  if (from.tangent.parameter * forward() >= 0.0) return std::nullopt;
+  for (const double beyond : {1e-6, 1e-5, 1e-4, 1e-3}) {
+    const double frequency = from.solution.point.parameter - beyond * forward() * range_;
+    if (progress(frequency) <= 0.0) break;
+    NewtonResult corrected = corrected_at(from.solution.point.x, frequency);
+    if (!corrected.converged || !on_the_branch(from, corrected.point)) continue;
+    curve_.log.push_back({from.solution.point.parameter, Remedy::fixed_frequency});
+    return Restart{std::move(corrected), -forward()};
+  }
+  return std::nullopt;
+}
+
+NewtonResult CurveTracer::corrected_at(const Eigen::VectorXd& guess, double frequency) {
   NewtonOptions newton;
   newton.tolerance = options_.residual_tolerance;
   newton.max_iterations = 40;
+  NewtonResult corrected = solve_at(*balance_, guess, frequency, newton);
+  curve_.contact_evaluations += corrected.evaluations;
+  curve_.iterations += corrected.iterations;
+  return corrected;
+}
+
+/// The ladder above the walker's own remedies: the plain corrector at a fixed frequency, then
+/// homotopies from the linear limits, at growing distances.
+std::optional<CurveTracer::Restart> CurveTracer::restart(const BranchWalker& stalled) {
+  if (auto beyond = restart_against_the_range(stalled)) return beyond;
+  const BranchVector& from = stalled.now().solution.point;
+  const bool came_from_there = stalled.now().tangent.parameter * forward() < 0.0;
   for (const double ahead : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 3e-2}) {
-    const double frequency =
-        from.parameter + ahead * (options_.frequency_end - options_.frequency_begin);
+    const double frequency = from.parameter + ahead * forward() * range_;
     if (progress(frequency) >= 1.0) break;
-    NewtonResult corrected = solve_at(*balance_, from.x, frequency, newton);
-    curve_.contact_evaluations += corrected.evaluations;
-    curve_.iterations += corrected.iterations;
-    const bool plain = corrected.converged;
+    NewtonResult corrected = corrected_at(from.x, frequency);
+    const bool plain =
+        corrected.converged && !(came_from_there && on_the_branch(stalled.now(), corrected.point));
     if (!plain) {
       StartPoint start = find_start(*balance_, frequency, options_.residual_tolerance);
       curve_.contact_evaluations += start.evaluations;
@@ -240,7 +267,7 @@ std::optional<NewtonResult> CurveTracer::restart(const BranchWalker& stalled) {
       corrected = std::move(*start.solution);
     }
     curve_.log.push_back({from.parameter, plain ? Remedy::fixed_frequency : Remedy::homotopy});
-    return corrected;
+    return Restart{std::move(corrected), forward()};
   }
   return std::nullopt;
 }
@@ -259,7 +286,7 @@ ResponseCurve CurveTracer::follow(NewtonResult start, const HarmonicSet& set) {
   use(set);
   entry_ = {balance_->harmonics(start.point.x), start.point.parameter};
   if (!add(start)) return finished();
-  BranchWalker walker = walker_from(std::move(start));
+  BranchWalker walker = walker_from(std::move(start), forward());
   if (walk(walker)) {
     stop(diagnosis_of(walker.stall()),
          at_hertz("Newton's method stalled", walker.now().solution.point.parameter));
@@ -277,28 +304,28 @@ ResponseCurve CurveTracer::run() {
          at_hertz("no solution found", options_.frequency_begin) + "; tried " + start.way);
     return finished();
   }
-  std::optional<NewtonResult> next = std::move(start.solution);
+  std::optional<Restart> next = Restart{std::move(*start.solution), forward()};
   for (int restarts = 0; next && restarts <= most_restarts; ++restarts) {
-    if (!add(*next)) {
-      stop(Diagnosis::interrupted, at_hertz("stopped", next->point.parameter));
+    if (!add(next->at)) {
+      stop(Diagnosis::interrupted, at_hertz("stopped", next->at.point.parameter));
       return finished();
     }
-    BranchWalker walker = walker_from(std::move(*next));
+    BranchWalker walker = walker_from(std::move(next->at), next->way);
     if (!walk(walker)) return finished();
     const double last = walker.now().solution.point.parameter;
     const Diagnosis stall = diagnosis_of(walker.stall());
     next = restart(walker);
     if (!next) {
       stop(stall, at_hertz("Newton's method stalled and no remedy helped", last));
-    } else if (!on_the_branch(walker.now(), next->point)) {
+    } else if (!on_the_branch(walker.now(), next->at.point)) {
       stop(Diagnosis::branch_jump,
            at_hertz(std::string(to_string(stall)) + ", and another branch beyond it", last));
       curve_.log.push_back({last, Remedy::other_branch});
-      entry_ = {balance_->harmonics(next->point.x), next->point.parameter};
+      entry_ = {balance_->harmonics(next->at.point.x), next->at.point.parameter};
     }
   }
   if (next)
-    stop(Diagnosis::event_chatter, at_hertz("stalled again and again", next->point.parameter));
+    stop(Diagnosis::event_chatter, at_hertz("stalled again and again", next->at.point.parameter));
   return finished();
 }
 

@@ -30,6 +30,12 @@ class CurveTracer {
   [[nodiscard]] ResponseCurve follow(NewtonResult start, const HarmonicSet& set);
 
  private:
+  /// Where and which way a walk goes on.
+  struct Restart {
+    NewtonResult at;
+    double way = 1.0;  ///< sign of the first change of the frequency
+  };
+
   [[nodiscard]] Scaling scaling_at(const NewtonResult& at);
   [[nodiscard]] StabilityReport stability_at(const NewtonResult& at);
   [[nodiscard]] StabilityReport judged(const NewtonResult& at, PointMark mark);
@@ -38,9 +44,12 @@ class CurveTracer {
   [[nodiscard]] bool add(const NewtonResult& at, PointMark mark = PointMark::none);
   /// True: the walker stalled; false: the curve has ended one way or another.
   [[nodiscard]] bool walk(BranchWalker& walker);
-  [[nodiscard]] BranchWalker walker_from(NewtonResult start);
+  /// @param way  sign of the first change of the frequency.
+  [[nodiscard]] BranchWalker walker_from(NewtonResult start, double way);
   /// A solution a little way beyond a point at which the walker stalled; empty: none was found.
-  [[nodiscard]] std::optional<NewtonResult> restart(const BranchWalker& stalled);
+  [[nodiscard]] std::optional<Restart> restart(const BranchWalker& stalled);
+  [[nodiscard]] std::optional<Restart> restart_against_the_range(const BranchWalker& stalled);
+  [[nodiscard]] NewtonResult corrected_at(const Eigen::VectorXd& guess, double frequency);
   void take_stock(const BranchWalker& walker);
   void use(const HarmonicSet& set);
   [[nodiscard]] ResponseCurve finished();
@@ -57,6 +66,7 @@ class CurveTracer {
   [[nodiscard]] static std::string at_hertz(const std::string& text, double frequency);
   void stop(Diagnosis diagnosis, const std::string& message);
   [[nodiscard]] double progress(double frequency) const;  ///< 0 at the begin, 1 at the end
+  [[nodiscard]] double forward() const;  ///< sign of the way from the begin to the end
 
   using Clock = std::chrono::steady_clock;
 

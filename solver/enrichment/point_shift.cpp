@@ -1,5 +1,6 @@
 #include "solver/point_shift.hpp"
 
+#include "contact/dense.hpp"
 #include "solver/balance/condensed.hpp"
 #include "solver/balance/newton.hpp"
 #include "solver/balance/output_amplitude.hpp"

@@ -2,6 +2,7 @@
 
 #include "solver/branch/branch_walker.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -47,7 +48,7 @@ struct Tip {
 TEST(BranchWalker, ASharpTipIsPassedToTheOtherPart) {
   constexpr double start = -0.05;
   int n_tips = 0;
-  for (const double half_angle : {3e-3, 1e-2, 3e-2, 0.1}) {
+  for (const double half_angle : {3e-3, 1e-2, 3e-2, 0.1, 0.25, 0.4}) {
     for (const double bend : {0.0, 1.0, 10.0, 100.0}) {
       // Where the steps end before the tip is chance.
       for (const double share : {1.0, 1.03, 1.07, 1.11, 1.17}) {
@@ -62,7 +63,7 @@ TEST(BranchWalker, ASharpTipIsPassedToTheOtherPart) {
       }
     }
   }
-  EXPECT_EQ(n_tips, 80);
+  EXPECT_EQ(n_tips, 120);
 }
 
 TEST(BranchWalker, ABranchPointIsNoTip) {
@@ -78,6 +79,29 @@ TEST(BranchWalker, ABranchPointIsNoTip) {
     EXPECT_EQ(x_of(walker), 0.0);
   }
   EXPECT_GE(parameter_of(walker), 0.3);
+}
+
+TEST(BranchWalker, ABranchPointIsNoTipWhereTheBranchBends) {
+  // x = 0 up to the branch point and x = s p beyond it, up to 27°; x = −p crosses.
+  int n_bends = 0;
+  for (const double slope : {-0.2, 0.1, 0.3, 0.4, 0.5}) {
+    const ParametricSystem bent = [slope](const Eigen::VectorXd& x, double p) {
+      const double own = x[0] - slope * std::max(p, 0.0);
+      const double other = x[0] + p;
+      return evaluation(own * other, own + other, own - (p > 0.0 ? slope : 0.0) * other);
+    };
+    for (const double share : {1.01, 1.03, 1.07, 1.11, 1.17}) {
+      BranchWalker walker = walker_from(bent, 0.0, -0.3 * share);
+      for (int i = 0; i < 300 && parameter_of(walker) < 0.3; ++i) {
+        const double before = parameter_of(walker);
+        ASSERT_TRUE(walker.advance()) << slope << ' ' << share;
+        ASSERT_GT(parameter_of(walker), before) << slope << ' ' << share;
+      }
+      EXPECT_NEAR(x_of(walker), slope * parameter_of(walker), 1e-9) << slope << ' ' << share;
+      ++n_bends;
+    }
+  }
+  EXPECT_EQ(n_bends, 25);
 }
 
 }  // namespace
