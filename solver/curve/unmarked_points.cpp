@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <utility>
+#include <vector>
 
 namespace microslip::solver {
 namespace {
@@ -45,6 +49,43 @@ bool is_marked_near(const ResponseCurve& curve, std::size_t row, PointMark mark)
   return false;
 }
 
+/// 1: the frequency of the branch is highest there; −1: lowest; 0: neither, or it is not told.
+int turn_at(const std::vector<ResponsePoint>& points, std::size_t row) {
+  const double here = points[row].frequency;
+  const auto way_to = [&](auto begin, auto end) {
+    const auto apart = std::find_if(begin, end, [&](const ResponsePoint& other) {
+      return std::abs(other.frequency - here) > frequency_resolution * here;
+    });
+    return apart == end ? 0 : (apart->frequency < here ? 1 : -1);
+  };
+  const auto at = points.begin() + static_cast<std::ptrdiff_t>(row);
+  const int before = way_to(std::make_reverse_iterator(at), points.rend());
+  return before == way_to(at + 1, points.end()) ? before : 0;
+}
+
+/// A fold that turns the same way, or one of which that is not told.
+bool has_fold_near(const ResponseCurve& curve, std::size_t row) {
+  const std::size_t last = std::min(row + close_by, curve.points.size() - 1);
+  const int way = turn_at(curve.points, row);
+  for (std::size_t i = row > close_by ? row - close_by : 0; i <= last; ++i) {
+    if (curve.points[i].mark == PointMark::fold && turn_at(curve.points, i) * way >= 0) return true;
+  }
+  return false;
+}
+
+/// A row has one mark: a peak at which the branch turns as well stands twice.
+void mark_fold(ResponseCurve& curve, std::size_t row) {
+  if (curve.points[row].mark == PointMark::peak) {
+    ResponsePoint again = curve.points[row];
+    again.iterations = 0;
+    again.contact_evaluations = 0;
+    again.seconds = 0.0;
+    curve.points.insert(curve.points.begin() + static_cast<std::ptrdiff_t>(row), std::move(again));
+  }
+  curve.points[row].mark = PointMark::fold;
+  curve.log.push_back({curve.points[row].frequency, Remedy::fold_unsolved});
+}
+
 }  // namespace
 
 void mark_unsolved(ResponseCurve& curve) {
@@ -53,11 +94,11 @@ void mark_unsolved(ResponseCurve& curve) {
     const ResponsePoint& a = curve.points[i - 1];
     ResponsePoint& b = curve.points[i];
     const ResponsePoint& c = curve.points[i + 1];
-    if (b.mark != PointMark::none) continue;
-    if (!is_marked_near(curve, i, PointMark::fold) && turns(a, b, c)) {
-      b.mark = PointMark::fold;
-      curve.log.push_back({b.frequency, Remedy::fold_unsolved});
-    } else if (!is_marked_near(curve, i, PointMark::peak) && is_higher(b, a) && is_higher(b, c)) {
+    if (b.mark == PointMark::fold) continue;
+    if (turns(a, b, c) && !has_fold_near(curve, i)) {
+      mark_fold(curve, i);
+    } else if (b.mark == PointMark::none && !is_marked_near(curve, i, PointMark::peak) &&
+               is_higher(b, a) && is_higher(b, c)) {
       b.mark = PointMark::peak;
       curve.log.push_back({b.frequency, Remedy::peak_unsolved});
     }

@@ -298,12 +298,14 @@ TEST(Metamorphic, SweepsUpAndDownMeetTheSameBranch) {  // M8
 }
 
 TEST(Metamorphic, ForcesAndLoadsTogetherScaleTheResponse) {  // M9
-  const double factor = 1e-5;
-  const auto change = [&](Numbers& n) {
-    n.excitation *= factor;
-    for (contact::PointParameters& point : n.points) point.rest_load *= factor;
-  };
-  expect_relation(change, {1.0, factor});
+  for (const double factor : {1e-10, 1e-5, 1e8}) {  // case 14: amplitudes from 1e-15 m to 1e3 m
+    SCOPED_TRACE(factor);
+    const auto change = [&](Numbers& n) {
+      n.excitation *= factor;
+      for (contact::PointParameters& point : n.points) point.rest_load *= factor;
+    };
+    expect_relation(change, {1.0, factor});
+  }
 }
 
 TEST(Metamorphic, FrictionCoefficientAndLoadActAsTheirProduct) {  // M10, constant load

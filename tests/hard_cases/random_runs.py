@@ -272,6 +272,9 @@ class Campaign:
         curves = json.loads(said)["curves"]
         if not all(curve["complete"] or curve["diagnosis"] for curve in curves):
             raise AssertionError("incomplete without a name")
+        for curve in curves:
+            if len(curve["folds_Hz"]) % 2 and is_one_piece(curve):
+                raise AssertionError(f"{curve['name']}: {len(curve['folds_Hz'])} folds from end to end, an odd number")
         outcome = next((curve["diagnosis"] for curve in curves if not curve["complete"]), "complete")
         if (outcome == "complete") != (code == 0):
             raise AssertionError(f"{outcome}, and exit code {code}")
@@ -309,6 +312,12 @@ class Campaign:
             print(f"processor time per scene: median {times[n // 2]:.2f} s, 99 % below {times[min(n - 1, 99 * n // 100)]:.2f} s")
         print(f"{self.n_marched} of {self.n_rows} rows marched through: forces balance within {self.worst:.1e}")
         return 1 if total["WRONG"] else 0
+
+
+def is_one_piece(curve):
+    """From one end of the range to the other without a place at which it was entered anew."""
+    anew = {"fixed-frequency", "homotopy", "other-branch"}
+    return curve["complete"] and not any(step["remedy"] in anew for step in curve["remedies"])
 
 
 def counted(outcomes):

@@ -12,6 +12,7 @@
 
 #include "contact/force/point_method_force.hpp"
 #include "contact/plane/planar_cycle.hpp"
+#include "solver/curve/curve_tracer.hpp"
 #include "tests/solver/duffing.hpp"
 #include "tests/support/curves.hpp"
 #include "tests/support/floating_point_traps.hpp"
@@ -287,6 +288,38 @@ TEST(Continuation, NamesACurveThatDoesNotEnd) {
   EXPECT_FALSE(curve.complete);
   EXPECT_EQ(curve.diagnosis, Diagnosis::budget);
   EXPECT_FALSE(curve.message.empty());
+}
+
+TEST(Continuation, ABranchThatLeavesTheRangeWhereItBeganIsWalkedFromTheOtherEnd) {
+  const Duffing duffing;
+  const std::vector<double> folds = [&] {
+    std::vector<double> at;
+    for (const auto& fold :
+         marked(trace_response(duffing.scene(), frequency_range(0.5, 2.5)), PointMark::fold)) {
+      at.push_back(fold.frequency);
+    }
+    return at;
+  }();
+  ASSERT_EQ(folds.size(), 2U);
+  const auto [low, high] = std::minmax(folds[0], folds[1]);
+  // Down along the lower branch to its fold, and back out of the range along the unstable part.
+  ContinuationOptions options = frequency_range(0.5 * (low + high), 0.8 * low);
+  const Harmonics below =
+      solve_at_frequency(duffing.scene(), 1.5 * high, frequency_range(1.5 * high, 1.5 * high))
+          .points.front()
+          .q;
+  options.near_begin = below;
+  const PointObserver none;
+  const ResponseCurve left = CurveTracer(duffing.scene(), options, none).run();
+  EXPECT_FALSE(left.complete);
+  EXPECT_EQ(left.diagnosis, Diagnosis::out_of_range);
+  EXPECT_EQ(marked(left, PointMark::fold).size(), 1U);
+  const ResponseCurve whole = trace_response(duffing.scene(), options);
+  EXPECT_TRUE(whole.complete) << whole.message;
+  ASSERT_FALSE(whole.log.empty());
+  EXPECT_EQ(whole.log.back().remedy, Remedy::other_end);
+  EXPECT_EQ(whole.points.front().frequency, options.frequency_begin);
+  EXPECT_EQ(whole.points.back().frequency, options.frequency_end);
 }
 
 TEST(Continuation, OfARangeWithoutWidthIsTheSolutionThere) {

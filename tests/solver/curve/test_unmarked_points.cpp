@@ -42,6 +42,35 @@ TEST(UnmarkedPoints, ARowWhereTheFrequencyTurnsIsMarkedAndLogged) {
   EXPECT_EQ(curve.log[0].remedy, Remedy::fold_unsolved);
 }
 
+TEST(UnmarkedPoints, APeakAtWhichTheBranchTurnsIsAFoldAsWell) {
+  // Up to a fold, back to a peak and on: as many turns to the left as to the right.
+  ResponseCurve curve = curve_of({{1.0, 1.0},
+                                  {1.1, 2.0},
+                                  {1.2, 2.5, PointMark::fold},
+                                  {1.1999, 2.6, PointMark::peak},
+                                  {1.3, 2.0},
+                                  {1.4, 1.0}});
+  mark_unsolved(curve);
+  ASSERT_EQ(curve.points.size(), 7U);
+  EXPECT_EQ(curve.points[3].mark, PointMark::fold);
+  EXPECT_EQ(curve.points[3].frequency, 1.1999);
+  EXPECT_EQ(curve.points[4].mark, PointMark::peak);
+  ASSERT_EQ(curve.log.size(), 1U);
+  EXPECT_EQ(curve.log[0].remedy, Remedy::fold_unsolved);
+}
+
+TEST(UnmarkedPoints, APeakBesideTheFoldOfItsKinkIsNone) {
+  ResponseCurve curve = curve_of({{1.0, 1.0},
+                                  {1.1, 2.0},
+                                  {1.2, 2.6, PointMark::peak},
+                                  {1.2 + 1e-13, 2.6, PointMark::fold},
+                                  {1.1, 2.5},
+                                  {1.0, 2.4}});
+  mark_unsolved(curve);
+  EXPECT_EQ(curve.points.size(), 6U);
+  EXPECT_TRUE(curve.log.empty());
+}
+
 TEST(UnmarkedPoints, SolvedPeaksRoundingAndBrokenCurvesAreLeftAlone) {
   ResponseCurve solved =
       curve_of({{1.0, 1.0}, {1.1, 2.0}, {1.15, 2.1, PointMark::peak}, {1.2, 2.0}, {1.3, 1.0}});
