@@ -27,13 +27,6 @@ bool is_higher(const ResponsePoint& point, const ResponsePoint& neighbour) {
   return point.amplitude > (1.0 + unsure) * neighbour.amplitude;
 }
 
-bool turns(const ResponsePoint& a, const ResponsePoint& b, const ResponsePoint& c) {
-  const double before = b.frequency - a.frequency;
-  const double after = c.frequency - b.frequency;
-  const double least = frequency_resolution * b.frequency;
-  return before * after < 0.0 && std::abs(before) > least && std::abs(after) > least;
-}
-
 bool was_entered_anew(const ResponseCurve& curve) {
   return std::any_of(curve.log.begin(), curve.log.end(), [](const SolverEvent& event) {
     return event.remedy == Remedy::fixed_frequency || event.remedy == Remedy::homotopy ||
@@ -63,12 +56,29 @@ int turn_at(const std::vector<ResponsePoint>& points, std::size_t row) {
   return before == way_to(at + 1, points.end()) ? before : 0;
 }
 
+bool turns(const std::vector<ResponsePoint>& points, std::size_t row) {
+  const double before = points[row].frequency - points[row - 1].frequency;
+  const double after = points[row + 1].frequency - points[row].frequency;
+  return before * after < 0.0 && turn_at(points, row) != 0;
+}
+
 /// A fold that turns the same way, or one of which that is not told.
 bool has_fold_near(const ResponseCurve& curve, std::size_t row) {
-  const std::size_t last = std::min(row + close_by, curve.points.size() - 1);
-  const int way = turn_at(curve.points, row);
-  for (std::size_t i = row > close_by ? row - close_by : 0; i <= last; ++i) {
-    if (curve.points[i].mark == PointMark::fold && turn_at(curve.points, i) * way >= 0) return true;
+  const auto& points = curve.points;
+  const double here = points[row].frequency;
+  const int way = turn_at(points, row);
+  const auto is_near = [&](std::size_t i) {
+    const std::size_t apart = i > row ? i - row : row - i;
+    return apart <= close_by || std::abs(points[i].frequency - here) <= frequency_resolution * here;
+  };
+  const auto is_it = [&](std::size_t i) {
+    return points[i].mark == PointMark::fold && turn_at(points, i) * way >= 0;
+  };
+  for (std::size_t i = row + 1; i-- > 0 && is_near(i);) {
+    if (is_it(i)) return true;
+  }
+  for (std::size_t i = row + 1; i < points.size() && is_near(i); ++i) {
+    if (is_it(i)) return true;
   }
   return false;
 }
@@ -95,7 +105,7 @@ void mark_unsolved(ResponseCurve& curve) {
     ResponsePoint& b = curve.points[i];
     const ResponsePoint& c = curve.points[i + 1];
     if (b.mark == PointMark::fold) continue;
-    if (turns(a, b, c) && !has_fold_near(curve, i)) {
+    if (turns(curve.points, i) && !has_fold_near(curve, i)) {
       mark_fold(curve, i);
     } else if (b.mark == PointMark::none && !is_marked_near(curve, i, PointMark::peak) &&
                is_higher(b, a) && is_higher(b, c)) {

@@ -59,6 +59,14 @@ TEST(UnmarkedPoints, APeakAtWhichTheBranchTurnsIsAFoldAsWell) {
   EXPECT_EQ(curve.log[0].remedy, Remedy::fold_unsolved);
 }
 
+TEST(UnmarkedPoints, AKinkThatIsApproachedInTinyStepsIsAFold) {
+  ResponseCurve curve = curve_of(
+      {{1.0, 1.0}, {1.1, 2.0}, {1.1 + 2e-9, 2.1}, {1.1 + 3e-9, 2.2}, {1.05, 3.0}, {1.0, 4.0}});
+  mark_unsolved(curve);
+  ASSERT_EQ(curve.log.size(), 1U);
+  EXPECT_EQ(curve.points[3].mark, PointMark::fold);
+}
+
 TEST(UnmarkedPoints, APeakBesideTheFoldOfItsKinkIsNone) {
   ResponseCurve curve = curve_of({{1.0, 1.0},
                                   {1.1, 2.0},
