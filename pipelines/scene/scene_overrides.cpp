@@ -62,17 +62,21 @@ std::string quoted(const std::string& text) {
 toml::table value_of(const std::string& text, const std::string& assignment) {
   const std::string source = "--set " + assignment;
   require_shallow_keys(text, "--set");
-  try {
-    toml::table table = toml::parse("x = " + text, source);
-    if (table.size() == 1) return table;  // more: a line break smuggled in further keys
-  } catch (const toml::parse_error& error) {
-    // 2.5 mm, stuck, … is meant as a text; what begins like a list, a table or a text is meant as
-    // TOML.
-    const std::size_t first = text.find_first_not_of(" \t");
-    constexpr std::string_view toml_begins = "[{\"'";
-    if (first != std::string::npos && toml_begins.find(text[first]) != std::string_view::npos) {
-      refuse(assignment, description_of(error));
+  // 2.5 mm, stuck, … is meant as a text; what begins like a list, a table or a text is meant as
+  // TOML.
+  const std::size_t first = text.find_first_not_of(" \t");
+  constexpr std::string_view toml_begins = "[{\"'";
+  const bool is_meant =
+      first != std::string::npos && toml_begins.find(text[first]) != std::string_view::npos;
+  if (foreign_letter(text) == std::string_view::npos) {
+    try {
+      toml::table table = toml::parse("x = " + text, source);
+      if (table.size() == 1) return table;  // more: a line break smuggled in further keys
+    } catch (const toml::parse_error& error) {
+      if (is_meant) refuse(assignment, description_of(error));
     }
+  } else if (is_meant) {
+    refuse(assignment, "a letter that is not plain ASCII stands outside of quotes");
   }
   try {
     return toml::parse("x = " + quoted(text), source);

@@ -88,6 +88,42 @@ std::string unquoted_quantity(std::string_view text, std::size_t at) {
   return value[1].str() + " " + words.substr(0, words.find_last_not_of(" \t") + 1);
 }
 
+/// Offset of the first byte from `at` on that stands neither in quotes nor in a comment.
+std::size_t bare(std::string_view text, std::size_t at) {
+  while (at < text.size()) {
+    if (text[at] == '"' || text[at] == '\'') {
+      at = end_of_quoted(text, at);
+    } else if (text[at] == '#') {
+      at = std::min(text.find('\n', at), text.size());
+    } else {
+      break;
+    }
+  }
+  return at;
+}
+
+toml::source_position place_of(std::string_view text, std::size_t at) {
+  const std::string_view before = text.substr(0, at);
+  const auto line = 1 + std::ranges::count(before, '\n');
+  const std::string_view row = before.substr(before.rfind('\n') + 1);  // npos + 1 is 0
+  const auto column = 1 + std::ranges::count_if(row, [](char c) {
+                        return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+                      });
+  return {static_cast<toml::source_index>(line), static_cast<toml::source_index>(column)};
+}
+
+/// What is wrong, with its place and key.
+std::string complaint(std::string_view text, const std::string& name,
+                      const toml::source_position& place, const std::string& what) {
+  const std::size_t at = offset_of(place, text);
+  const std::string key = key_at_end_of(text.substr(0, at));
+  const std::string quantity = unquoted_quantity(text, at);
+  return fmt::format(
+      "{}:{}:{}: {}{}{}", name, place.line, place.column, key, key.empty() ? "" : ": ",
+      quantity.empty() ? what
+                       : fmt::format("a number with a unit stands in quotes: \"{}\"", quantity));
+}
+
 }  // namespace
 
 std::string description_of(const toml::parse_error& error) {
@@ -110,39 +146,35 @@ std::string description_of(const toml::parse_error& error) {
 void require_shallow_keys(std::string_view text, const std::string& name) {
   constexpr int most_points = 100;
   int points = 0;  // of this key; numbers have one
-  for (std::size_t i = 0; i < text.size();) {
+  for (std::size_t i = bare(text, 0); i < text.size(); i = bare(text, i + 1)) {
     const char c = text[i];
-    if (c == '"' || c == '\'') {
-      i = end_of_quoted(text, i);
-      continue;
-    }
-    if (c == '#') {
-      i = std::min(text.find('\n', i), text.size());
-      continue;
-    }
     if (c != '.' && std::string_view("=,[]{}\n").find(c) != std::string_view::npos) points = 0;
     if (c == '.' && ++points > most_points) {
       const auto line = 1 + std::ranges::count(text.substr(0, i), '\n');
       throw SceneError(fmt::format("{}:{}: a key of more than {} parts; expected section.key", name,
                                    line, most_points));
     }
-    ++i;
   }
+}
+
+std::size_t foreign_letter(std::string_view text) {
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  std::size_t i = bare(text, text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
+  while (i < text.size() && static_cast<unsigned char>(text[i]) < 0x80U) i = bare(text, i + 1);
+  return i < text.size() ? i : std::string_view::npos;
 }
 
 toml::table parse_toml(std::string_view text, const std::string& name) {
   require_shallow_keys(text, name);
+  if (const std::size_t at = foreign_letter(text); at != std::string_view::npos) {
+    throw SceneError(complaint(text, name, place_of(text, at),
+                               "cannot be read as TOML: a letter that is not plain ASCII stands "
+                               "outside of quotes"));
+  }
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {
-    const toml::source_position place = error.source().begin;
-    const std::size_t at = offset_of(place, text);
-    const std::string key = key_at_end_of(text.substr(0, at));
-    const std::string quantity = unquoted_quantity(text, at);
-    throw SceneError(fmt::format(
-        "{}:{}:{}: {}{}{}", name, place.line, place.column, key, key.empty() ? "" : ": ",
-        quantity.empty() ? description_of(error)
-                         : fmt::format("a number with a unit stands in quotes: \"{}\"", quantity)));
+    throw SceneError(complaint(text, name, error.source().begin, description_of(error)));
   }
 }
 

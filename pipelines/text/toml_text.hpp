@@ -2,6 +2,7 @@
 /// The text of a scene as TOML, with mistakes told by line, column and the key they stand under.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -13,6 +14,10 @@ namespace microslip::pipelines {
 /// key, and its stack ends.
 /// @throws SceneError  a key of more than 100 parts.
 void require_shallow_keys(std::string_view text, const std::string& name);
+
+/// Offset of the first letter beyond ASCII outside of quotes and comments; npos: none. TOML has none
+/// there, and what the parser does with one is not defined.
+[[nodiscard]] std::size_t foreign_letter(std::string_view text);
 
 /// @param name  how messages call the text, e.g. the file.
 /// @throws SceneError  not TOML: "name:line:column: section.key: …".

