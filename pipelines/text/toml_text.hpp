@@ -15,8 +15,9 @@ namespace microslip::pipelines {
 /// @throws SceneError  a key of more than 100 parts.
 void require_shallow_keys(std::string_view text, const std::string& name);
 
-/// Offset of the first letter beyond ASCII outside of quotes and comments; npos: none. TOML has none
-/// there, and what the parser does with one is not defined.
+/// TOML has no letters beyond ASCII outside of quotes and comments, and what the parser does with
+/// one is not defined.
+/// @return offset of the first; npos: none.
 [[nodiscard]] std::size_t foreign_letter(std::string_view text);
 
 /// @param name  how messages call the text, e.g. the file.
