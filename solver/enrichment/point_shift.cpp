@@ -1,6 +1,5 @@
 #include "solver/point_shift.hpp"
 
-#include "contact/dense.hpp"
 #include "solver/balance/condensed.hpp"
 #include "solver/balance/newton.hpp"
 #include "solver/balance/output_amplitude.hpp"
