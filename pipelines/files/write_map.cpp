@@ -85,8 +85,9 @@ double in_degrees(double phase) {
   return std::abs(rounded - exact) < 1e-9 ? rounded : exact;
 }
 
-void write_series(const std::filesystem::path& folder, const contact::Patch& patch,
-                  const NamedMap& map) {
+/// @return names of its files.
+std::vector<std::string> write_series(const std::filesystem::path& folder,
+                                      const contact::Patch& patch, const NamedMap& map) {
   const auto surface = make_surface(patch);
   const bool smooth = map.vertices.phase.size() > 0;
   const bool points_only = patch.connectivity.rows() == 0;
@@ -112,8 +113,11 @@ void write_series(const std::filesystem::path& folder, const contact::Patch& pat
     write_vtk_file(folder / name, *frame);
     steps.emplace_back(phase_deg, name);
   }
+  std::vector<std::string> names{map.name + ".pvd"};
+  for (const auto& [phase, name] : steps) names.push_back(name);
   if (!steps.empty()) steps.emplace_back(360.0, steps.front().second);
-  write_pvd(folder / (map.name + ".pvd"), steps);
+  write_pvd(folder / names.front(), steps);
+  return names;
 }
 
 /// Transition angles, shares of the period and fields of the period under names that begin with
@@ -156,8 +160,8 @@ void write_map_data(const std::filesystem::path& file, const contact::Patch& pat
 
 }  // namespace
 
-void write_map(const std::filesystem::path& folder, const contact::Patch& patch,
-               const NamedMap& map) {
+std::vector<std::string> write_map(const std::filesystem::path& folder, const contact::Patch& patch,
+                                   const NamedMap& map) {
   const Eigen::Index n = patch.cells.weights.size();
   require_rows("contact points", map, map.points.state.rows(), n);
   if (patch.connectivity.rows() > 0) require_rows("cells", map, patch.connectivity.rows(), n);
@@ -165,8 +169,10 @@ void write_map(const std::filesystem::path& folder, const contact::Patch& patch,
     require_rows("vertices", map, map.vertices.state.rows(), patch.vertices.points.rows());
   }
   make_folder(folder);
-  write_series(folder, patch, map);
-  write_map_data(folder / (map.name + ".h5"), patch, map);
+  std::vector<std::string> names = write_series(folder, patch, map);
+  names.push_back(map.name + ".h5");
+  write_map_data(folder / names.back(), patch, map);
+  return names;
 }
 
 }  // namespace microslip::pipelines

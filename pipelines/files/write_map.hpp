@@ -4,6 +4,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "contact/patch.hpp"
 #include "pipelines/response/run_results.hpp"
@@ -31,9 +33,10 @@ namespace microslip::pipelines {
 ///
 /// All names with units and meaning: columns.hpp. A patch without cells gives one vertex per
 /// contact point; one without positions puts the points in a row.
+/// @return names of the files.
 /// @throws std::invalid_argument  the map does not have one row per contact point (or vertex).
 /// @throws ExhaustedError         cannot be written.
-void write_map(const std::filesystem::path& folder, const contact::Patch& patch,
-               const NamedMap& map);
+std::vector<std::string> write_map(const std::filesystem::path& folder, const contact::Patch& patch,
+                                   const NamedMap& map);
 
 }  // namespace microslip::pipelines

@@ -13,6 +13,7 @@
 #include "pipelines/response/error_row.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/output_file.hpp"
+#include "pipelines/system/result_cache.hpp"
 #include "pipelines/system/scene_error.hpp"
 #include "pipelines/system/temporary_folder.hpp"
 #include "pipelines/text/csv_table.hpp"
@@ -39,8 +40,10 @@ std::string draw(const std::filesystem::path& folder, const std::filesystem::pat
   const TemporaryFolder scratch;
   const std::filesystem::path ended = scratch.path() / "summary.json";
   write_whole(ended, summary);
+  const ResultCache* cache = ResultCache::in_use();
+  const std::string kept = cache == nullptr ? "" : cache->folder().string();
   std::string failure = run_plot_script(
-      "report_run.py", {folder.string(), into.string(), ended.string()}, time_for_plots());
+      "report_run.py", {folder.string(), into.string(), ended.string(), kept}, time_for_plots());
   if (!failure.empty() && seconds_left() < 1.0) {
     failure += fmt::format("; out of time: microslip report {} draws them", folder.string());
   }

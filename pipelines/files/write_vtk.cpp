@@ -183,9 +183,10 @@ void write_modes_vtu(const std::filesystem::path& file, const mesh::Mesh& mesh,
   write_vtk_file(file, *grid);
 }
 
-void write_motion(const std::filesystem::path& folder, const std::string& name,
-                  const mesh::Mesh& mesh, const fem::ModalBasis& basis, const contact::Harmonics& q,
-                  double frequency_hz, int n_phases) {
+std::vector<std::string> write_motion(const std::filesystem::path& folder, const std::string& name,
+                                      const mesh::Mesh& mesh, const fem::ModalBasis& basis,
+                                      const contact::Harmonics& q, double frequency_hz,
+                                      int n_phases) {
   make_folder(folder);
   const Skin skin = make_skin(mesh);
   const Eigen::MatrixXd shapes = skin_shapes(skin, basis.shapes);
@@ -202,8 +203,11 @@ void write_motion(const std::filesystem::path& folder, const std::string& name,
     write_vtk_file(folder / frame_name, *frame);
     steps.emplace_back(360.0 * turn, frame_name);
   }
+  std::vector<std::string> names{name + ".pvd"};
+  for (const auto& [phase, frame] : steps) names.push_back(frame);
   steps.emplace_back(360.0, steps.front().second);
-  write_pvd(folder / (name + ".pvd"), steps);
+  write_pvd(folder / names.front(), steps);
+  return names;
 }
 
 }  // namespace microslip::pipelines

@@ -25,9 +25,11 @@ void write_modes_vtu(const std::filesystem::path& file, const mesh::Mesh& mesh,
 /// @param folder    created if missing.
 /// @param q         a solution [m√kg], one signal per mode of `basis`.
 /// @param n_phases  frames per period, ≥ 1.
+/// @return names of the files.
 /// @throws ExhaustedError  cannot be written.
-void write_motion(const std::filesystem::path& folder, const std::string& name,
-                  const mesh::Mesh& mesh, const fem::ModalBasis& basis, const contact::Harmonics& q,
-                  double frequency_hz, int n_phases = 24);
+std::vector<std::string> write_motion(const std::filesystem::path& folder, const std::string& name,
+                                      const mesh::Mesh& mesh, const fem::ModalBasis& basis,
+                                      const contact::Harmonics& q, double frequency_hz,
+                                      int n_phases = 24);
 
 }  // namespace microslip::pipelines

@@ -36,6 +36,7 @@
 #include "pipelines/system/interrupt.hpp"
 #include "pipelines/system/output_file.hpp"
 #include "pipelines/system/scene_error.hpp"
+#include "pipelines/system/sealed_bytes.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -54,6 +55,11 @@ bool any_is_spent(const std::vector<CurveSummary>& curves) {
 /// Where the summary of an earlier run is kept until this one has begun.
 std::filesystem::path earlier_summary(const std::filesystem::path& folder) {
   return folder / "checkpoint" / "summary.json";
+}
+
+std::vector<std::string> within(const std::string& folder, std::vector<std::string> files) {
+  for (std::string& file : files) file.insert(0, folder + '/');
+  return files;
 }
 
 }  // namespace
@@ -436,16 +442,39 @@ void RunRecord::keep_unfinished() {
   unfinished_.clear();
 }
 
-void RunRecord::keep_map(const ReducedModel& model, const NamedMap& map, std::size_t curve) {
-  write_map(staged_ / "maps", model.patches.at(map.patch), map);
+std::vector<std::string> RunRecord::keep_map(const ReducedModel& model, const NamedMap& map,
+                                             std::size_t curve) {
+  const auto files = write_map(staged_ / "maps", model.patches.at(map.patch), map);
   const std::lock_guard lock(mutex_);
   summary_.curves.at(curve).maps.push_back(map.name);
+  return within("maps", files);
 }
 
-void RunRecord::keep_motion(const std::string& name, const solver::ResponsePoint& point) {
-  if (!structure_) return;  // a modal scene has no body to draw
-  write_motion(staged_ / "motion", name, structure_->mesh, structure_->basis, point.q,
-               hz_per_rad * point.frequency);
+std::vector<std::string> RunRecord::keep_motion(const std::string& name,
+                                                const solver::ResponsePoint& point) {
+  if (!structure_) return {};  // a modal scene has no body to draw
+  return within("motion", write_motion(staged_ / "motion", name, structure_->mesh,
+                                       structure_->basis, point.q, hz_per_rad * point.frequency));
+}
+
+std::optional<Pictures> RunRecord::pictures_of(const std::vector<std::string>& maps,
+                                               const std::vector<std::string>& files) const {
+  Pictures pictures{.maps = maps, .files = {}};
+  for (const std::string& file : files) {
+    pictures.files.push_back({file, bytes_of(staged_ / file)});
+    if (pictures.files.back().bytes.empty()) return std::nullopt;
+  }
+  return pictures;
+}
+
+void RunRecord::keep_pictures(const Pictures& pictures, std::size_t curve) {
+  for (const PictureFile& file : pictures.files) {
+    make_folder((staged_ / file.name).parent_path());
+    write_whole(staged_ / file.name, file.bytes);
+  }
+  const std::lock_guard lock(mutex_);
+  auto& names = summary_.curves.at(curve).maps;
+  names.insert(names.end(), pictures.maps.begin(), pictures.maps.end());
 }
 
 void RunRecord::keep_optimum(const ReducedModel& model, const OptimumRequest& request,

@@ -17,6 +17,7 @@
 #include "pipelines/accuracy/error_budget.hpp"
 #include "pipelines/files/checkpoint.hpp"
 #include "pipelines/model/reduced_model.hpp"
+#include "pipelines/record/pictures.hpp"
 #include "pipelines/record/progress.hpp"
 #include "pipelines/record/run_folder.hpp"
 #include "pipelines/record/run_options.hpp"
@@ -91,11 +92,19 @@ class RunRecord {
   void keep_unfinished();
   /// A modal scene's scale is told as the total force it means.
   void keep_curve(const CurveResult& result, const ReducedModel& model);
-  void keep_map(const ReducedModel& model, const NamedMap& map, std::size_t curve);
+  /// @return the files, for pictures_of().
+  std::vector<std::string> keep_map(const ReducedModel& model, const NamedMap& map,
+                                    std::size_t curve);
   /// After all maps and motions that are drawn beside something else of their stage.
   void maps_are_drawn();
   /// Motion of the whole blade at one solution.
-  void keep_motion(const std::string& name, const solver::ResponsePoint& point);
+  /// @return the files, for pictures_of().
+  std::vector<std::string> keep_motion(const std::string& name, const solver::ResponsePoint& point);
+  /// What the stage that goes on has drawn of a curve. Empty: a file of it cannot be read.
+  [[nodiscard]] std::optional<Pictures> pictures_of(const std::vector<std::string>& maps,
+                                                    const std::vector<std::string>& files) const;
+  /// What an earlier run has drawn of it.
+  void keep_pictures(const Pictures& pictures, std::size_t curve);
   /// For summary.json, before errors are told.
   void note_optimum(const ReducedModel& model, const OptimumRequest& request,
                     const solver::Optimum& optimum, const CurveBudget& budget);

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <mutex>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -22,6 +23,7 @@
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/in_parallel.hpp"
 #include "pipelines/system/interrupt.hpp"
+#include "pipelines/system/result_cache.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -184,8 +186,38 @@ std::vector<CurveBudget> budgets_of(const ReducedModel& model, const SceneDescri
   return budgets;
 }
 
+namespace {
+
+void draw_curve(const ReducedModel& model, const SceneDescription& scene, const CurveResult& curve,
+                std::size_t number, const KeptResults& kept, RunRecord& record) {
+  if (const std::optional<Pictures> before = kept.pictures(curve)) {
+    record.keep_pictures(*before, number);
+    return;
+  }
+  std::vector<std::string> names;
+  std::vector<std::string> files;
+  const auto add = [&](const std::vector<std::string>& more) {
+    files.insert(files.end(), more.begin(), more.end());
+  };
+  const CurveMaps maps = curve_maps(model, scene, curve);
+  for (const NamedMap& map : maps.maps) {
+    add(record.keep_map(model, map, number));
+    names.push_back(map.name);
+  }
+  for (const std::string& reason : maps.missing) record.progress().warning(reason);
+  if (const auto* peak = highest_peak(curve.curve)) {
+    add(record.keep_motion(curve.name + "_peak", *peak));
+  }
+  // What is missing is told in every run.
+  if (ResultCache::in_use() == nullptr || !maps.missing.empty()) return;
+  if (const auto drawn = record.pictures_of(names, files)) kept.keep(*drawn, curve);
+}
+
+}  // namespace
+
 void draw_maps(const ReducedModel& model, const SceneDescription& scene,
                const std::vector<CurveResult>& curves, int jobs, RunRecord& record) {
+  const KeptResults kept(model, scene);
   std::atomic<bool> late{false};
   in_parallel(curves.size(), jobs, [&](std::size_t i) {
     stop_if_interrupted("curves");
@@ -193,12 +225,7 @@ void draw_maps(const ReducedModel& model, const SceneDescription& scene,
       late = true;
       return;
     }
-    const CurveMaps drawn = curve_maps(model, scene, curves[i]);
-    for (const NamedMap& map : drawn.maps) record.keep_map(model, map, i);
-    for (const std::string& reason : drawn.missing) record.progress().warning(reason);
-    if (const auto* peak = highest_peak(curves[i].curve)) {
-      record.keep_motion(curves[i].name + "_peak", *peak);
-    }
+    draw_curve(model, scene, curves[i], i, kept, record);
   });
   if (late)
     record.progress().warning(

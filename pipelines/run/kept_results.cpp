@@ -26,6 +26,14 @@ auto members(Is<CurveBudget> auto& value) {
   auto& [rows, unknown, left_out, no_bound, dissipated_energy, energy_ratio] = value;
   return std::tie(rows, unknown, left_out, no_bound, dissipated_energy, energy_ratio);
 }
+auto members(Is<PictureFile> auto& value) {
+  auto& [name, bytes] = value;
+  return std::tie(name, bytes);
+}
+auto members(Is<Pictures> auto& value) {
+  auto& [maps, files] = value;
+  return std::tie(maps, files);
+}
 auto members(Is<BestValue> auto& value) {
   auto& [optimum, budget, bracket] = value;
   return std::tie(optimum, budget, bracket);
@@ -36,6 +44,7 @@ namespace {
 /// So many evaluations of a point take some tenth of a second. Counted, not measured: which results
 /// are kept does not depend on the day.
 constexpr double worth_keeping = 1e4;
+constexpr std::size_t bytes_worth_keeping = 1'000'000;  ///< of pictures, likewise
 
 using Keys = std::vector<std::string_view>;
 
@@ -44,21 +53,35 @@ bool is_of_maps(const std::string& section, const std::string& key) {
   return section == "[effects]" && (key == "maps" || key == "wear");
 }
 
-/// A completed scene without its title, these keys of [response], what says whether maps are drawn,
-/// and [accuracy], of which the settings of the model say more.
-std::string text_without(const Keys& keys, const std::string& scene_toml) {
+/// Lines of a completed scene by section and key.
+template <typename Which>
+std::string lines_where(const std::string& scene_toml, const Which& which) {
   std::string text;
   std::string section;
   std::istringstream lines(scene_toml);
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with("[")) section = line;
-    const std::string key = line.substr(0, line.find(" = "));
+    if (which(section, line.substr(0, line.find(" = ")))) text += line + '\n';
+  }
+  return text;
+}
+
+/// A completed scene without its title, these keys of [response], what says whether maps are drawn,
+/// and [accuracy], of which the settings of the model say more.
+std::string text_without(const Keys& keys, const std::string& scene_toml) {
+  return lines_where(scene_toml, [&](const std::string& section, const std::string& key) {
     const bool is_choice = section == "[response]" && std::ranges::find(keys, key) != keys.end();
     const bool is_title = section.empty() && key == "title";
     const bool says_more = section != "[accuracy]" && !is_of_maps(section, key);
-    if (says_more && !is_choice && !is_title) text += line + '\n';
-  }
-  return text;
+    return says_more && !is_choice && !is_title;
+  });
+}
+
+/// Which maps are drawn, and of what.
+std::string text_of_maps(const std::string& scene_toml) {
+  return lines_where(scene_toml, [](const std::string& section, const std::string& key) {
+    return is_of_maps(section, key) || (section == "[response]" && key.starts_with("map"));
+  });
 }
 
 /// Adds the content of every file that a part of a completed scene names, which has whole paths.
@@ -127,6 +150,8 @@ std::string with_load(const std::string& inputs, const std::variant<double, Limi
   return inputs + bytes.bytes();
 }
 
+std::string maps_name(const CurveResult& curve) { return "maps_" + curve.name; }
+
 std::string errors_name(const CurveResult& curve) { return "errors_" + curve.name; }
 
 /// Errors are those of these points, whatever they took.
@@ -155,6 +180,7 @@ KeptResults::KeptResults(const ReducedModel& model, const SceneDescription& scen
     keys.emplace_back(key);
   }
   curves_ = text_without(keys, scene.complete_toml) + settings;
+  maps_ = text_of_maps(scene.complete_toml);
 }
 
 bool KeptResults::is_worth(long evaluations) const {
@@ -178,6 +204,17 @@ std::optional<CurveBudget> KeptResults::budget(const CurveResult& curve) const {
 void KeptResults::keep(const CurveBudget& budget, const CurveResult& curve) const {
   if (!is_worth(curve.curve.contact_evaluations)) return;
   keep_part(errors_name(curve), with_points(curves_, curve), budget);
+}
+
+std::optional<Pictures> KeptResults::pictures(const CurveResult& curve) const {
+  return found<Pictures>(maps_name(curve), with_points(maps_ + curves_, curve));
+}
+
+void KeptResults::keep(const Pictures& pictures, const CurveResult& curve) const {
+  std::size_t n_bytes = 0;
+  for (const PictureFile& file : pictures.files) n_bytes += file.bytes.size();
+  if (n_bytes < bytes_worth_keeping) return;
+  keep_part(maps_name(curve), with_points(maps_ + curves_, curve), pictures);
 }
 
 std::optional<BestValue> KeptResults::best_value() const {

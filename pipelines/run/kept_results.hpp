@@ -1,5 +1,5 @@
 /// @file
-/// Curves, their errors and the best value that earlier runs have solved for
+/// Curves, their errors, their maps and the best value that earlier runs have solved for
 /// (system/result_cache.hpp): a scene that asks for another preload solves for that one alone.
 #pragma once
 
@@ -10,6 +10,7 @@
 #include "pipelines/description/curve_request.hpp"
 #include "pipelines/description/scene_description.hpp"
 #include "pipelines/model/reduced_model.hpp"
+#include "pipelines/record/pictures.hpp"
 #include "pipelines/response/run_results.hpp"
 
 namespace microslip::pipelines {
@@ -37,6 +38,10 @@ class KeptResults {
   [[nodiscard]] std::optional<CurveBudget> budget(const CurveResult& curve) const;
   void keep(const CurveBudget& budget, const CurveResult& curve) const;
 
+  /// Maps of this curve and its motion, where the model is that of the maps.
+  [[nodiscard]] std::optional<Pictures> pictures(const CurveResult& curve) const;
+  void keep(const Pictures& pictures, const CurveResult& curve) const;
+
   [[nodiscard]] std::optional<BestValue> best_value() const;
   void keep(const BestValue& best) const;
 
@@ -47,6 +52,7 @@ class KeptResults {
   double n_points_ = 0.0;
   std::string curves_;  ///< all that they follow from, their loads apart
   std::string best_;    ///< likewise
+  std::string maps_;    ///< which maps, as the scene says
 };
 
 }  // namespace microslip::pipelines

@@ -39,6 +39,9 @@ class ResultCache {
 
   [[nodiscard]] static ResultCache* in_use();
 
+  /// For scripts that keep what they draw there as files of their own.
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+
   /// One result: while it lives, another run that wants the same waits.
   class Entry {
    public:

@@ -1,10 +1,11 @@
 #!/usr/bin/python3
 """Plots and report.html of a run folder.
 
-    report_run.py RUN_FOLDER [INTO [SUMMARY.json]]
+    report_run.py RUN_FOLDER [INTO [SUMMARY.json [CACHE]]]
 
 Reads summary.json (or SUMMARY.json in its place), scene.toml, curves/, model.h5 and maps/*.h5; writes INTO/plots and INTO/report.html,
-RUN_FOLDER by default. The page needs no network and no matplotlib. Exit code 1, and a sentence, where a part cannot be made; the rest is.
+RUN_FOLDER by default. Plots that were drawn of the same before and are kept in the folder CACHE are taken from there. The page
+needs no network and no matplotlib. Exit code 1, and a sentence, where a part cannot be made; the rest is.
 """
 
 import os

@@ -32,11 +32,11 @@ def read(*path):
         return file.read()
 
 
-def run(name, *options, command="run", cache="cache", **changes):
+def run(name, *options, command="run", cache="cache", plots=False, **changes):
     """The log of a run of the blade."""
     words = [PROGRAM, command, BLADE, "-q", "-o", os.path.join(WORK, name), *options, *settings_of({**COARSE, **changes})]
-    words += ["--without", "plots"] if command == "run" else []
-    environment = {**without_plots(), "MICROSLIP_CACHE": os.path.join(WORK, cache)}
+    words += ["--without", "plots"] if command == "run" and not plots else []
+    environment = {**(os.environ if plots else without_plots()), "MICROSLIP_CACHE": os.path.join(WORK, cache)}
     subprocess.run(words, env=environment, check=True, capture_output=True, timeout=300)
     return read(name, "log.txt").decode()
 
@@ -128,6 +128,39 @@ class SharedModes(unittest.TestCase):
                            ("response.frequency", ["310 Hz", "336 Hz"]), ("effects.normal_motion", "off")):
             self.assertEqual(taken("other", [150], **{key: value, "response.optimum": None, "response.optimum_range": None,
                                                       "accuracy.error_budget": "off"}), set(), key)
+
+    def test_pictures_of_curves_that_did_not_change_are_not_drawn_again(self):
+        study = {"response.maps": ["peak"], "response.harmonics": 3, "contact.points": 96, "response.frequency": ["310 Hz", "335 Hz"]}
+
+        def drawn(name, preloads, *options, **changes):
+            """Files of maps, motion and plots; curves of which the first two were taken."""
+            log = run(name, *options, cache="pictures_cache", plots=True, **{**study, "response.preload": preloads, **changes})
+            folders = [os.path.join(WORK, name, part) for part in ("maps", "motion", "plots")]
+            files = {os.path.join(os.path.basename(folder), file): read(folder, file)
+                     for folder in folders for file in sorted(os.listdir(folder))}
+            return files, {load for load in preloads if f"maps_preload_{load}: taken from an earlier run" in log}
+
+        def kept():
+            return {name for name in os.listdir(os.path.join(WORK, "pictures_cache")) if name.startswith("plot-")}
+
+        first, taken = drawn("pictures", [600, 1000])
+        self.assertEqual(taken, set())
+        n_plots = sum(name.endswith(".svg") for name in first)
+        self.assertEqual(len(kept()), n_plots)
+        again, taken = drawn("pictures_again", [600, 1000])
+        self.assertEqual((again, taken), (first, {600, 1000}))
+        self.assertEqual(len(kept()), n_plots, "no figure was drawn again")
+        # One more curve: its map, and what shows all curves.
+        more, taken = drawn("pictures", [600, 800, 1000])
+        refused, _ = drawn("pictures_refused", [600, 800, 1000], "--no-cache")
+        self.assertEqual((more, taken), (refused, {600, 1000}))
+        of_all = [name for name in more if name.endswith(".svg") and "map_" not in name]
+        self.assertEqual(len(kept()), n_plots + 1 + len(of_all))
+        # A kept figure is taken as it is, a damaged one drawn again, other phases are other maps.
+        for name in kept():
+            os.truncate(os.path.join(WORK, "pictures_cache", name), 1000)
+        self.assertEqual(drawn("pictures_mended", [600, 800, 1000])[0], more)
+        self.assertEqual(drawn("pictures_phases", [600, 1000], **{"response.map_phases": 8})[1], set())
 
     def test_a_file_that_says_more_than_the_model_is_read_again(self):
         os.environ["MICROSLIP_CACHE"] = os.path.join(WORK, "points_cache")

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import os
 import sys
-from typing import TYPE_CHECKING, Optional
+from typing import TYPE_CHECKING, Callable, Optional
 
 from microslip.files import shown
 from microslip.plots.figures import OF_A_RUN
-from microslip.plots.maps import map_tasks, maps_of
+from microslip.plots.kept import KeptFigures, inputs_of_map, inputs_of_run
+from microslip.plots.maps import map_figure, map_tasks, maps_of, name_of
 from microslip.plots.output import run_shared, save
 from microslip.plots.run_folder import Run
 
@@ -38,13 +39,30 @@ def plots_folder(run: Run, folder: Optional[str] = None) -> str:
     return folder
 
 
-def plot_run(run_folder: str, folder: Optional[str] = None) -> bool:
-    """Curves, peaks and maps into a folder, RUN_FOLDER/plots by default. Whether all was there and is drawn; if not,
-    stderr says what."""
+Draw = Callable[[], "Optional[Figure]"]
+
+
+def figures_of(run: Run) -> list[tuple[str, bytes, Draw]]:
+    """Name, digest of all it is drawn from, and how, of every figure."""
+    of_all = inputs_of_run(run)
+    figures: list[tuple[str, bytes, Draw]] = [(name, of_all, lambda draw=draw: draw(run)) for name, draw in OF_A_RUN.items()]
+    return figures + [("map_" + name_of(path), inputs_of_map(run, path, title), lambda path=path, title=title: map_figure(path, title))
+                      for path, title in maps_of(run) if os.path.exists(path)]
+
+
+def plot_run(run_folder: str, folder: Optional[str] = None, cache: Optional[str] = None) -> bool:
+    """Curves, peaks and maps into a folder, RUN_FOLDER/plots by default; those that are kept in the folder `cache` are not
+    drawn again. Whether all was there and is drawn; if not, stderr says what."""
     run = Run(run_folder)
     folder = plots_folder(run, folder)
-    figures = [lambda name=name, draw=draw: save_if_any(draw(run), folder, name) for name, draw in OF_A_RUN.items()]
-    drawn = run_shared(figures + map_tasks(run, folder))
+    kept = KeptFigures(cache)
+
+    def draw_and_keep(name: str, inputs: bytes, draw: Draw) -> None:
+        save_if_any(draw(), folder, name)
+        kept.keep(name, inputs, folder)
+
+    drawn = run_shared([lambda figure=figure: draw_and_keep(*figure) for figure in figures_of(run)
+                        if not kept.restore(*figure[:2], folder)])
     missing = missing_files(run)
     if missing:  # what is there is drawn: maps are large, and may have been removed
         print(f"summary.json names files that are missing: {', '.join(map(shown, missing))}; run the scene again",

@@ -20,8 +20,8 @@ def write_report_page(folder: str, into: str, summary: Optional[str] = None) -> 
     write_page(run, os.path.join(into, "report.html"))
 
 
-def draw_plots(folder: str, into: str) -> int:
-    """INTO/plots. An exit code."""
+def draw_plots(folder: str, into: str, cache: Optional[str]) -> int:
+    """INTO/plots, of `cache` those that earlier runs have drawn. An exit code."""
     try:
         from microslip.plots.command import run_command
     except ModuleNotFoundError as error:
@@ -29,10 +29,10 @@ def draw_plots(folder: str, into: str) -> int:
               "report.html, curves and maps are there", file=sys.stderr)
         return 1
     from microslip.plots.run_plots import plot_run
-    return run_command(plot_run, folder, os.path.join(into, "plots"))
+    return run_command(plot_run, folder, os.path.join(into, "plots"), cache)
 
 
-def report(folder: str, into: Optional[str] = None, summary: Optional[str] = None) -> int:
+def report(folder: str, into: Optional[str] = None, summary: Optional[str] = None, cache: Optional[str] = None) -> int:
     """Both. The exit code."""
     into = into or folder
     try:
@@ -40,4 +40,4 @@ def report(folder: str, into: Optional[str] = None, summary: Optional[str] = Non
     except RunError as error:
         print(error, file=sys.stderr)
         return 1
-    return draw_plots(folder, into)
+    return draw_plots(folder, into, cache)
