@@ -140,8 +140,8 @@ class SharedModes(unittest.TestCase):
                      for folder in folders for file in sorted(os.listdir(folder))}
             return files, {load for load in preloads if f"maps_preload_{load}: taken from an earlier run" in log}
 
-        def kept():
-            return {name for name in os.listdir(os.path.join(WORK, "pictures_cache")) if name.startswith("plot-")}
+        def kept(kind="plot-"):
+            return {name for name in os.listdir(os.path.join(WORK, "pictures_cache")) if name.startswith(kind)}
 
         first, taken = drawn("pictures", [600, 1000])
         self.assertEqual(taken, set())
@@ -150,6 +150,8 @@ class SharedModes(unittest.TestCase):
         again, taken = drawn("pictures_again", [600, 1000])
         self.assertEqual((again, taken), (first, {600, 1000}))
         self.assertEqual(len(kept()), n_plots, "no figure was drawn again")
+        self.assertEqual(len(kept("page-")), 2)
+        self.assertEqual(*(read(name, "report.html").partition(b'id="data">')[2] for name in ("pictures", "pictures_again")))
         # One more curve: its map, and what shows all curves.
         more, taken = drawn("pictures", [600, 800, 1000])
         refused, _ = drawn("pictures_refused", [600, 800, 1000], "--no-cache")
@@ -157,7 +159,7 @@ class SharedModes(unittest.TestCase):
         of_all = [name for name in more if name.endswith(".svg") and "map_" not in name]
         self.assertEqual(len(kept()), n_plots + 1 + len(of_all))
         # A kept figure is taken as it is, a damaged one drawn again, other phases are other maps.
-        for name in kept():
+        for name in kept() | kept("page-"):
             os.truncate(os.path.join(WORK, "pictures_cache", name), 1000)
         self.assertEqual(drawn("pictures_mended", [600, 800, 1000])[0], more)
         self.assertEqual(drawn("pictures_phases", [600, 1000], **{"response.map_phases": 8})[1], set())

@@ -12,12 +12,12 @@ from microslip.report.page import write_page
 from microslip.results import Run, RunWarning
 
 
-def write_report_page(folder: str, into: str, summary: Optional[str] = None) -> None:
+def write_report_page(folder: str, into: str, summary: Optional[str] = None, cache: Optional[str] = None) -> None:
     """INTO/report.html. RunError without a summary that can be read."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RunWarning)  # the page says it
         run = Run(folder, summary)
-    write_page(run, os.path.join(into, "report.html"))
+    write_page(run, os.path.join(into, "report.html"), cache)
 
 
 def draw_plots(folder: str, into: str, cache: Optional[str]) -> int:
@@ -36,7 +36,7 @@ def report(folder: str, into: Optional[str] = None, summary: Optional[str] = Non
     """Both. The exit code."""
     into = into or folder
     try:
-        write_report_page(folder, into, summary)  # first: it is quick, and a run may be short of time
+        write_report_page(folder, into, summary, cache)  # first: it is quick, and a run may be short of time
     except RunError as error:
         print(error, file=sys.stderr)
         return 1

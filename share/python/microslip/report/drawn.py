@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import json
 import os
 from typing import TYPE_CHECKING, Any, Callable, Dict, Mapping, Optional, Sequence
 
@@ -12,6 +13,7 @@ from microslip.arrows import arrows_at
 from microslip.branch import AMPLITUDE, PHASE, cubics
 from microslip.boundaries import GUARDS, Vertices, instant_boundaries, parted_cells, period_boundaries, triangles_of
 from microslip.files import RunError, trace_in
+from microslip.kept import Kept, bytes_in, digest, sources_in
 from microslip.plots.numbers import is_number, length_unit, plain
 from microslip.states import STATES
 
@@ -261,9 +263,21 @@ def map_entry(contact: ContactMap) -> Entry:
     return entry
 
 
-def read_maps(run: Run, damage: list[str]) -> list[Entry]:
+def kept_entry(contact: ContactMap, path: str, kept: Kept, drawn_by: bytes) -> Entry:
+    """map_entry() as an earlier run has made it of the same file, or anew."""
+    inputs = digest(drawn_by, contact.name.encode(), bytes_in(path)) if kept.folder else b""
+    before = kept.find(inputs)
+    if before is not None:
+        return json.loads(before[0])
+    entry = map_entry(contact)
+    kept.keep(inputs, [json.dumps(entry).encode()])
+    return entry
+
+
+def read_maps(run: Run, damage: list[str], cache: Optional[str]) -> list[Entry]:
     """The maps a page has room for."""
     maps, room = [], MOST_BYTES
+    kept, drawn_by = Kept(cache, "page"), sources_in("report", "plots") if cache else b""
     for name in run.maps:
         try:
             contact = run.maps[name]
@@ -272,14 +286,14 @@ def read_maps(run: Run, damage: list[str]) -> list[Entry]:
                 damage.append(f"map {name} is left out of this page, which would grow too large; plots/map_{name}.png "
                               "shows it")
                 continue
-            maps.append(map_entry(contact))
+            maps.append(kept_entry(contact, os.path.join(run.folder, "maps", name + ".h5"), kept, drawn_by))
             room -= size
         except (RunError, ImportError, KeyError) as error:
             damage.append(f"map {name}: {error}")
     return maps
 
 
-def drawn(run: Run, damage: list[str]) -> Entry:
+def drawn(run: Run, damage: list[str], cache: Optional[str] = None) -> Entry:
     """Everything that is drawn; sentences about what cannot be are added to `damage`."""
     curves = read_curves(run, damage)
     free = next((curve for curve in curves if curve.preload == "free"), None)
@@ -292,4 +306,4 @@ def drawn(run: Run, damage: list[str]) -> Entry:
     return {"curves": entries, "quantities": quantities, "unit": unit[0],
             "trace": trace_entry(run, unit[1], damage), "peaks": peak_entries(curves, shades, unit[1]),
             "scaled": any(curve.summary.get("preload_scale") is not None for curve in curves),
-            "maps": read_maps(run, damage), "states": [[name, shade] for _, name, shade in STATES]}
+            "maps": read_maps(run, damage, cache), "states": [[name, shade] for _, name, shade in STATES]}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import html
 import json
 import os
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Optional
 
 from microslip.files import write_whole
 from microslip.report.drawn import drawn
@@ -29,10 +29,10 @@ def data_text(data: Any) -> str:
     return json.dumps(data, separators=(",", ":"), allow_nan=False).replace("</", "<\\/").replace("<!--", "<\\!--")
 
 
-def page(run: Run) -> str:
+def page(run: Run, cache: Optional[str] = None) -> str:
     """The whole text of report.html."""
     damage = []
-    data = drawn(run, damage)
+    data = drawn(run, damage, cache)
     title = html.escape(run.title or "microslip run")
     body = problems_of(run, list(dict.fromkeys(damage)))
     for heading, section in SECTIONS:
@@ -50,6 +50,6 @@ def page(run: Run) -> str:
             f'<script>\n{part("chart.js")}{part("page.js")}</script></body></html>\n')
 
 
-def write_page(run: Run, path: str) -> None:
+def write_page(run: Run, path: str, cache: Optional[str] = None) -> None:
     """report.html, whole or not at all."""
-    write_whole(path, page(run).encode("utf-8"))
+    write_whole(path, page(run, cache).encode("utf-8"))
