@@ -1,7 +1,7 @@
 /// @file
 /// Effects that are left out, looked at along whole curves: the indicator of the table of effects
 /// again, of the nonlinear motion at every solution point. What having them changes is told by the
-/// peaks (left_out.hpp, error_budget.hpp).
+/// peaks (left_out.hpp, error_budget.hpp), and by the point where the indicator is largest.
 #pragma once
 
 #include <vector>
@@ -13,12 +13,24 @@
 
 namespace microslip::pipelines {
 
-/// Of normal motion: the largest change of a point's load over its load; of friction along r:
-/// motion along r over that along p, rms over area and period.
+/// The largest of all solution points, and where:
+///
+/// - normal_motion, separation: change k_v (|mean| + Σ_k amplitude) of the load over the load;
+/// - mean_coupling: the same of the mean alone;
+/// - second_direction: motion along r over that along p, rms over area and period;
+/// - higher_harmonics, of curves that have the first alone: motion that the contact force drives at
+///   a multiple of the frequency, of the free structure, over the motion of the first harmonic;
+/// - rate_dependence: change of the coefficient at the speed Σ_k kω amplitude;
+/// - roughness: its height over the least compression of the period, of all points together;
+/// - moments: moment of the load that turning changes over load times half the size.
+///
+/// Others have indicators that do not depend on the motion.
 /// @param model   a curve was solved with.
-/// @param others  the model with one effect more each; other sources than these two tell nothing.
-/// @return a row of the goal `largest_indicator` for each.
+/// @param scene   of the model: what is "off" in it, and what it gives.
+/// @param others  the model with one effect more each.
+/// @return a row of the goal `largest_indicator` for each that is left out.
 [[nodiscard]] std::vector<ErrorRow> rows_along_curve(const ReducedModel& model,
+                                                     const SceneDescription& scene,
                                                      const std::vector<RicherModel>& others,
                                                      const CurveResult& result);
 

@@ -157,7 +157,8 @@ std::optional<double> missed_change(const std::vector<ErrorRow>& rows, std::stri
                                     double tolerance) {
   std::optional<double> largest;
   for (const ErrorRow& row : rows) {
-    const bool told = tells_change(row, source) || tells_without_peak(row, source);
+    const bool there = row.source == source && row.goal == amplitude_there_goal;
+    const bool told = tells_change(row, source) || tells_without_peak(row, source) || there;
     if (!told || !(std::abs(row.effect) > tolerance)) continue;
     largest = std::max(change_without(row.effect), largest.value_or(0.0));
   }
@@ -216,22 +217,46 @@ void tell_none(const std::vector<NoBound>& none, EffectRecord& effect) {
   effect.reason += fmt::format("; no bound was made of what it would change: {}", why->why);
 }
 
+/// Beside the peaks.
+bool matters_there(const std::vector<ErrorRow>& rows, double tolerance, std::string_view source) {
+  const ErrorRow* there = largest_row(rows, source, amplitude_there_goal);
+  return there != nullptr && std::abs(there->effect) > tolerance;
+}
+
+/// Where its indicator is largest of all solution points, and what having it changes there.
+void tell_along(const std::vector<ErrorRow>& rows, double tolerance, EffectRecord& effect) {
+  const ErrorRow* most = largest_indicator(rows, effect.name);
+  if (most == nullptr) return;
+  effect.along = IndicatorAlong{most->effect, most->curve, most->where_hz};
+  effect.reason +=
+      fmt::format("; along the curves its indicator is {:.2g} at most ({} at {:.4g} Hz)",
+                  most->effect, most->curve, most->where_hz);
+  const ErrorRow* there = largest_row(rows, effect.name, amplitude_there_goal);
+  if (there == nullptr) return;
+  const std::string text = fmt::format(
+      "the amplitude of {} at {:.4g} Hz, where its indicator is largest, changes by {} of the "
+      "highest peak beyond what the change of the peak makes there",
+      there->curve, there->where_hz, percent_text(std::abs(there->effect)));
+  effect.reason += "; " + text;
+  if (matters_there(rows, tolerance, effect.name)) effect.objection = "left out, and " + text;
+}
+
 }  // namespace
 
 void tell_bounds(const std::vector<ErrorRow>& rows, double tolerance,
                  std::vector<EffectRecord>& effects, const std::vector<NoBound>& none) {
   for (EffectRecord& effect : effects) {
+    tell_along(rows, tolerance, effect);
     if (effect.simulated == Simulated::yes) continue;
-    if (const ErrorRow* most = largest_indicator(rows, effect.name)) {
-      effect.reason += fmt::format("; along the curves its indicator is {:.2g} at most ({})",
-                                   most->effect, most->curve);
-    }
     const bool harmonics = effect.name == "higher_harmonics";
     const std::string source = harmonics ? "harmonics" : effect.name;
     const Told told = told_of(rows, source, tolerance);
     if (told.anything()) effect.bound = told.words.empty() ? told.bound : std::nullopt;
     for (const std::string& words : told.words) effect.reason += "; " + words;
-    if (told.bound) effect.objection = *told.bound > tolerance ? objection_of(*told.bound) : "";
+    if (told.bound && *told.bound > tolerance) effect.objection = objection_of(*told.bound);
+    if (told.bound && *told.bound <= tolerance && !matters_there(rows, tolerance, effect.name)) {
+      effect.objection = "";
+    }
     if (told.beside > tolerance && told.beside > told.bound.value_or(0.0)) {
       effect.objection = "left out, and " + told.most;
     }

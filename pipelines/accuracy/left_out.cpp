@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 
@@ -17,6 +18,7 @@
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/interrupt.hpp"
 #include "pipelines/system/scene_error.hpp"
+#include "pipelines/text/effect_table.hpp"
 #include "solver/continuation.hpp"
 #include "solver/richer_peak.hpp"
 
@@ -346,7 +348,77 @@ Changes changes_with(const SceneDescription& scene, const ReducedModel& model,
   }
 }
 
+/// Of a source and a goal; none: not told.
+const ErrorRow* row_of(const std::vector<ErrorRow>& rows, const std::string& source,
+                       std::string_view goal) {
+  const auto row = std::ranges::find_if(
+      rows, [&](const ErrorRow& one) { return one.source == source && one.goal == goal; });
+  return row == rows.end() ? nullptr : &*row;
+}
+
+bool is_above(const ErrorRow* row) {
+  return row != nullptr && row->effect > effect_row(row->source).threshold;
+}
+
+/// The solution at a frequency that a row tells; none: a peak, which is solved for anyway.
+const solver::ResponsePoint* point_at(const solver::ResponseCurve& curve, double frequency_hz) {
+  const auto point = std::ranges::find_if(curve.points, [&](const solver::ResponsePoint& one) {
+    return one.frequency / (2.0 * std::numbers::pi) == frequency_hz;
+  });
+  const bool is_peak =
+      point == curve.points.end() || point->mark == solver::PointMark::peak || !point->slope;
+  return is_peak ? nullptr : &*point;
+}
+
+/// A change of amplitude beyond what the change of the peak makes: as much higher, and shifted.
+double beyond_peak(double change, const solver::ResponsePoint& point,
+                   const solver::ResponsePoint& peak, double height, double shift) {
+  const double explained = std::abs(height) * point.amplitude +
+                           std::abs(point.slope->amplitude * shift) * peak.frequency;
+  return std::copysign(std::max(0.0, std::abs(change) - explained), change) / peak.amplitude;
+}
+
+/// The same frequency in both models.
+std::optional<solver::PeakOfBoth> solved_there(const SceneDescription& scene,
+                                               const ReducedModel& model, const RicherModel& other,
+                                               const solver::ResponsePoint& point, double load) {
+  ReducedModel richer = other.model;
+  richer.effects.located = richer.effects.located || model.effects.located;
+  const solver::Scene own = solver_scene(model, load);
+  const solver::Scene with = solver_scene(richer, load_with(richer, model, load));
+  solver::ContinuationOptions options = options_of_both(scene, model, richer);
+  options.frequency_begin = options.frequency_end = point.frequency;
+  solver::ResponseCurve alone;
+  alone.points = {point};
+  return solver::peak_elsewhere(own, options, alone, {with, other.embedding, 1.0});
+}
+
 }  // namespace
+
+std::vector<ErrorRow> rows_there(const ReducedModel& simulated, const SceneDescription& scene,
+                                 const std::vector<RicherModel>& others, const CurveResult& result,
+                                 const std::vector<ErrorRow>& known) {
+  const auto* load = std::get_if<double>(&result.load);
+  const solver::ResponsePoint* peak = highest_peak(result.curve);
+  if (load == nullptr || result.integrated || peak == nullptr) return {};
+  const ReducedModel model = model_of(simulated, result.curve);
+  std::vector<ErrorRow> rows;
+  for (const RicherModel& other : others) {
+    const ErrorRow* along = row_of(known, other.source, largest_indicator_goal);
+    const ErrorRow* height = row_of(known, other.source, peak_amplitude_goal);
+    const ErrorRow* shift = row_of(known, other.source, peak_frequency_goal);
+    if (!is_above(along) || height == nullptr || shift == nullptr || cut_short()) continue;
+    const solver::ResponsePoint* point = point_at(result.curve, along->where_hz);
+    if (point == nullptr || !std::isfinite(height->effect)) continue;
+    const auto both = solved_there(scene, model, other, *point, *load);
+    if (!both) continue;
+    const double change = beyond_peak(both->other_amplitude - both->amplitude, *point, *peak,
+                                      height->effect, shift->effect);
+    rows.push_back({result.name, amplitude_there_goal, other.source, change, ErrorKind::solved, 0.0,
+                    along->where_hz});
+  }
+  return rows;
+}
 
 std::vector<ErrorRow> rows_left_out(const ReducedModel& simulated, const SceneDescription& scene,
                                     const std::vector<RicherModel>& others,

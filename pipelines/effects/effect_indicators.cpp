@@ -248,24 +248,6 @@ void add_answers(const LimitModes& modes, double frequency, HarmonicAnswer& most
   }
 }
 
-/// Of one patch in one motion.
-double turning_force(const contact::Patch& patch, const Eigen::VectorXcd& q) {
-  const contact::PatchSamples& cells = patch.cells;
-  if (cells.shapes.v.size() == 0) return 0.0;
-  const Eigen::VectorXcd load = (cells.weights.cwiseProduct(cells.stiffness.col(1))).asDiagonal() *
-                                (cells.shapes.v.cast<std::complex<double>>() * q);
-  const Eigen::RowVector3d middle = contact::centroid(patch).transpose();
-  double most = 0.0;
-  for (const Eigen::Index axis : {0, 2}) {
-    const Eigen::VectorXd at =
-        (cells.points.rowwise() - middle) * patch.frame.row(axis).transpose();
-    const double half_size = 0.5 * (at.maxCoeff() - at.minCoeff());
-    if (half_size > 0.0)
-      most = std::max(most, std::abs(at.cast<std::complex<double>>().dot(load)) / half_size);
-  }
-  return most;
-}
-
 /// Stuck frequencies of the first n modes [rad/s].
 Eigen::VectorXd stuck_resonances(const ReducedModel& model, Eigen::Index n) {
   Eigen::MatrixXd total = stuck_stiffness(model);
@@ -346,6 +328,23 @@ HarmonicAnswer harmonic_answer(const ReducedModel& model, const SceneDescription
   const LimitModes free = modes_of(model, limits.front());
   for (const double end : {range.low, range.high}) {
     if (free.patch.size() > 0) add_answers(free, end, most);
+  }
+  return most;
+}
+
+double turning_force(const contact::Patch& patch, const Eigen::VectorXcd& q) {
+  const contact::PatchSamples& cells = patch.cells;
+  if (cells.shapes.v.size() == 0) return 0.0;
+  const Eigen::VectorXcd load = (cells.weights.cwiseProduct(cells.stiffness.col(1))).asDiagonal() *
+                                (cells.shapes.v.cast<std::complex<double>>() * q);
+  const Eigen::RowVector3d middle = contact::centroid(patch).transpose();
+  double most = 0.0;
+  for (const Eigen::Index axis : {0, 2}) {
+    const Eigen::VectorXd at =
+        (cells.points.rowwise() - middle) * patch.frame.row(axis).transpose();
+    const double half_size = 0.5 * (at.maxCoeff() - at.minCoeff());
+    if (half_size > 0.0)
+      most = std::max(most, std::abs(at.cast<std::complex<double>>().dot(load)) / half_size);
   }
   return most;
 }

@@ -7,6 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "pipelines/description/scene_description.hpp"
 #include "pipelines/model/reduced_model.hpp"
 
@@ -57,6 +59,9 @@ struct HarmonicAnswer {
 /// bound.
 [[nodiscard]] std::vector<double> turning_forces(const ReducedModel& model,
                                                  const SceneDescription& scene);
+
+/// Of one patch in one motion, its first harmonic.
+[[nodiscard]] double turning_force(const contact::Patch& patch, const Eigen::VectorXcd& motion);
 
 /// |μ(σ) − μ(0)|/μ(0) at the highest speed σ of the linear limits, the largest of all patches; of
 /// the law that the scene gives, simulated or not.

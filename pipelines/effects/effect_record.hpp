@@ -10,6 +10,13 @@ namespace microslip::pipelines {
 
 enum class Simulated : std::uint8_t { no, yes, undecided };
 
+/// An indicator of the nonlinear motion, where it is largest of all solution points.
+struct IndicatorAlong {
+  double indicator = 0.0;
+  std::string curve;
+  double frequency_hz = 0.0;
+};
+
 struct EffectRecord {
   std::string name;
   std::string setting;  ///< auto | on | off
@@ -27,8 +34,9 @@ struct EffectRecord {
   /// peak by. Infinite: the peak with it was not found from that without. None:
   /// not switched on by a run.
   std::optional<double> switched_on{};
-  std::string objection{};  ///< why the setting is wrong; empty: nothing says so
-  std::string refusal{};    ///< why the setting cannot be obeyed; empty: it is
+  std::optional<IndicatorAlong> along{};  ///< of what is left out; none: not looked at
+  std::string objection{};                ///< why the setting is wrong; empty: nothing says so
+  std::string refusal{};                  ///< why the setting cannot be obeyed; empty: it is
 };
 
 }  // namespace microslip::pipelines

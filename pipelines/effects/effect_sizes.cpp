@@ -53,16 +53,20 @@ double share_of(const ReducedModel& model, std::size_t patch) {
   return all > 0.0 ? own / all : 0.0;
 }
 
-/// That of the motion: 0 without normal motion, or where the places of points are not known.
-double turning_size(const ReducedModel& model, const SceneDescription& scene) {
-  if (setting_of(scene, "normal_motion") == "off") return 0.0;
-  const double force = smallest_force(model, scene);
-  const std::vector<double> turning = turning_forces(model, scene);
+/// Over the load that turning changes, the largest of all patches. @param force  of all [N].
+double largest_turning(const ReducedModel& model, const std::vector<double>& turning,
+                       double force) {
   double most = 0.0;
   for (std::size_t k = 0; k < turning.size(); ++k) {
     if (turning[k] > 0.0) most = std::max(most, over(turning[k], share_of(model, k) * force));
   }
   return most;
+}
+
+/// That of the motion: 0 without normal motion, or where the places of points are not known.
+double turning_size(const ReducedModel& model, const SceneDescription& scene) {
+  if (setting_of(scene, "normal_motion") == "off") return 0.0;
+  return largest_turning(model, turning_forces(model, scene), smallest_force(model, scene));
 }
 
 double half_size(const Eigen::VectorXd& places) {
@@ -71,12 +75,23 @@ double half_size(const Eigen::VectorXd& places) {
 
 }  // namespace
 
-double roughness_size(const ReducedModel& model, const SceneDescription& scene) {
+double turning_size(const ReducedModel& model, double load, const Eigen::VectorXcd& motion) {
+  std::vector<double> turning;
+  for (const contact::Patch& patch : model.patches) turning.push_back(turning_force(patch, motion));
+  return largest_turning(model, turning, load * force_at_unit_load(model));
+}
+
+double roughness_height(const SceneDescription& scene) {
   double height = 0.0;
   for (const contact::SurfaceRules& rules : surface_rules(as_written(scene))) {
     if (rules.roughness) height = std::max(height, rules.roughness->height());
   }
-  return over(height * total_normal_stiffness(model), smallest_force(model, scene));
+  return height;
+}
+
+double roughness_size(const ReducedModel& model, const SceneDescription& scene) {
+  return over(roughness_height(scene) * total_normal_stiffness(model),
+              smallest_force(model, scene));
 }
 
 std::optional<double> tilt_size(const ReducedModel& model, const SceneDescription& scene) {

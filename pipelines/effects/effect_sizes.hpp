@@ -5,12 +5,17 @@
 
 #include <optional>
 
+#include <Eigen/Core>
+
 #include "pipelines/description/scene_description.hpp"
 #include "pipelines/model/reduced_model.hpp"
 
 namespace microslip::pipelines {
 
-/// Height of the roughness that the scene gives, simulated or not, over the compression of the
+/// Of the roughness that the scene gives, simulated or not: the largest of all patches [m].
+[[nodiscard]] double roughness_height(const SceneDescription& scene);
+
+/// That height over the compression of the
 /// surfaces at rest. Infinite without load.
 [[nodiscard]] double roughness_size(const ReducedModel& model, const SceneDescription& scene);
 
@@ -19,5 +24,11 @@ namespace microslip::pipelines {
 /// Infinite without load. None: areas of a mesh are left out, and with them their size.
 [[nodiscard]] std::optional<double> tilt_size(const ReducedModel& model,
                                               const SceneDescription& scene);
+
+/// The same of one motion, of the load that turning changes alone.
+/// @param load    of a curve, that presses.
+/// @param motion  first harmonic of the modal coordinates, sine + i cosine.
+[[nodiscard]] double turning_size(const ReducedModel& model, double load,
+                                  const Eigen::VectorXcd& motion);
 
 }  // namespace microslip::pipelines

@@ -95,8 +95,8 @@ auto members(Is<NoBound> auto& value) {
   return std::tie(effect, why);
 }
 auto members(Is<ErrorRow> auto& value) {
-  auto& [curve, goal, source, effect, kind, seconds] = value;
-  return std::tie(curve, goal, source, effect, kind, seconds);
+  auto& [curve, goal, source, effect, kind, seconds, where_hz] = value;
+  return std::tie(curve, goal, source, effect, kind, seconds, where_hz);
 }
 
 }  // namespace pipelines

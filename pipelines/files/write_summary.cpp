@@ -217,6 +217,11 @@ Json to_json(const CurveSummary& curve) {
           {"search_starts", curve.search_starts}};
 }
 
+Json to_json(const IndicatorAlong& along) {
+  return {{"indicator", finite_or_null(along.indicator)},
+          {"curve", along.curve},
+          {"frequency_Hz", along.frequency_hz}};
+}
 Json to_json(const EffectRecord& effect) {
   return {{"name", effect.name},
           {"setting", effect.setting},
@@ -231,6 +236,7 @@ Json to_json(const EffectRecord& effect) {
           {"bound", finite_or_null(effect.bound)},
           {"bound_together", finite_or_null(effect.bound_together)},
           {"switched_on", finite_or_null(effect.switched_on)},
+          {"along_curves", effect.along ? to_json(*effect.along) : Json(nullptr)},
           {"objection", effect.objection}};
 }
 

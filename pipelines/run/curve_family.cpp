@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <iterator>
 #include <mutex>
 #include <numbers>
 #include <optional>
@@ -160,6 +161,9 @@ std::vector<CurveBudget> budgets_of(const ReducedModel& model, const SceneDescri
   const RicherModels others =
       any_unknown && !cut_short() ? models_left_out(model, scene, structure) : RicherModels{};
   if (!others.note.empty()) progress.info(others.note);
+  std::vector<RicherModel> with = others.models;
+  std::ranges::copy_if(richer.models, std::back_inserter(with),
+                       [](const RicherModel& one) { return one.source == "second_direction"; });
   std::vector<CurveBudget> budgets(curves.size());
   in_parallel(curves.size(), jobs, [&](std::size_t i) {
     stop_if_interrupted("curves");
@@ -171,9 +175,12 @@ std::vector<CurveBudget> budgets_of(const ReducedModel& model, const SceneDescri
     budgets[i].no_bound = others.no_bound;
     if (cut_short()) return;
     budgets[i].left_out = rows_left_out(model, scene, others.models, curves[i]);
-    for (const RicherModels* with : {&others, &richer}) {
-      const std::vector<ErrorRow> along = rows_along_curve(model, with->models, curves[i]);
-      budgets[i].left_out.insert(budgets[i].left_out.end(), along.begin(), along.end());
+    std::vector<ErrorRow>& rows = budgets[i].left_out;
+    for (const ErrorRow& row : rows_along_curve(model, scene, with, curves[i])) rows.push_back(row);
+    std::vector<ErrorRow> told = budgets[i].rows;
+    told.insert(told.end(), rows.begin(), rows.end());
+    for (const ErrorRow& row : rows_there(model, scene, with, curves[i], told)) {
+      rows.push_back(row);
     }
     kept.keep(budgets[i], curves[i]);
   });

@@ -330,6 +330,9 @@ class WhatOtherKeysGiveIsSwitchedOff(unittest.TestCase):
         self.assertGreaterEqual(row["bound"], (1 - 1e-5) * change)
         self.assertLess(row["bound"], 1.2 * change + 0.02)  # frequencies count as well
         self.assertEqual(row["objection"] != "", row["bound"] > 0.02)
+        if name in ("roughness", "rate_dependence"):  # looked at again at every solution point
+            self.assertGreater(float(str(row["along_curves"]["indicator"]).replace("infinite", "inf")), 0.0)
+            self.assertIn(row["along_curves"]["curve"], solved)
         return off
 
     def test_roughness(self):
@@ -347,6 +350,13 @@ class WhatOtherKeysGiveIsSwitchedOff(unittest.TestCase):
         off = self.compare("moments", path, settings, None)
         row = effect(off, "moments")
         self.assertGreater(row["indicator"], row["threshold"])
+
+    def test_moments_of_a_motion_that_turns_the_area(self):
+        block = run("block", f"{SCENES}/block_rough.toml", "response.harmonics=1", "response.preload=[40]", "response.maps=[]",
+                    "effects.moments=off", "effects.roughness=off")
+        along = effect(block, "moments")["along_curves"]
+        self.assertGreater(along["indicator"], 0.0)
+        self.assertTrue(18.0 <= along["frequency_Hz"] <= 40.0)
 
     def test_the_shape_of_a_static_preload(self):
         off = self.compare("static_preload", f"{SCENES}/blade_static_preload.toml", self.BLADE, None)

@@ -1,6 +1,8 @@
 #include "pipelines/accuracy/along_curve.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -18,19 +20,32 @@ namespace {
 constexpr double preload = 100.0;
 
 struct Solved {
+  SceneDescription scene;
   ReducedModel model;
   CurveResult curve;
 };
 
-Solved solved() {
-  const SceneDescription scene =
-      read_scene(MICROSLIP_SCENES "/chain_3dof_normal.toml",
-                 {"effects.normal_motion=off", "response.harmonics=1", "response.preload=[100]"});
+Solved solved(const std::vector<std::string>& changes) {
+  std::vector<std::string> words{"response.harmonics=1", "response.preload=[100]"};
+  words.insert(words.end(), changes.begin(), changes.end());
+  Solved result{read_scene(MICROSLIP_SCENES "/chain_3dof_normal.toml", words), {}, {}};
   std::vector<std::string> warnings;
-  Solved result{model_of(scene, nullptr, warnings), {}};
-  result.curve = trace_curve(result.model, scene, CurveRequest{"curve", preload},
+  result.model = model_of(result.scene, nullptr, warnings);
+  result.curve = trace_curve(result.model, result.scene, CurveRequest{"curve", preload},
                              [](const auto&) { return true; });
   return result;
+}
+
+Solved solved() { return solved({"effects.normal_motion=off"}); }
+
+/// Of the one effect.
+ErrorRow row_of(const std::string& effect, const Solved& of,
+                const std::vector<RicherModel>& others = {}) {
+  for (const ErrorRow& row : rows_along_curve(of.model, of.scene, others, of.curve)) {
+    if (row.source == effect) return row;
+  }
+  ADD_FAILURE() << effect << " is not looked at";
+  return {};
 }
 
 // One point: k_v (|mean| + amplitude) over its load, by hand.
@@ -49,15 +64,55 @@ TEST(AlongCurve, TheIndicatorOfNormalMotionIsTheLargestChangeOfTheLoad) {
         expected, cells.stiffness(0, 1) * (std::abs(mean) + std::hypot(sine, cosine)) / at_rest);
   }
   ASSERT_GT(expected, 0.0);
-  const auto rows = rows_along_curve(of.model, {{"normal_motion", of.model}}, of.curve);
-  ASSERT_EQ(rows.size(), 1U);
-  EXPECT_EQ(rows[0].goal, largest_indicator_goal);
-  EXPECT_NEAR(rows[0].effect, expected, 1e-12 * expected);
+  const ErrorRow row = row_of("normal_motion", of, {{"normal_motion", of.model}});
+  EXPECT_EQ(row.goal, largest_indicator_goal);
+  EXPECT_NEAR(row.effect, expected, 1e-12 * expected);
+  const auto there = std::ranges::find_if(of.curve.curve.points, [&](const auto& point) {
+    return point.frequency / (2.0 * std::numbers::pi) == row.where_hz;
+  });
+  EXPECT_NE(there, of.curve.curve.points.end());
+}
+
+// The mean alone, of a load that varies and drifts.
+TEST(AlongCurve, TheIndicatorOfMeanCouplingIsTheLargestDriftOfTheLoad) {
+  Solved of = solved({});
+  for (auto& [effect, setting] : of.scene.effects) {
+    if (effect == "mean_coupling") setting = "off";
+  }
+  const contact::PatchSamples& cells = of.model.patches.at(0).cells;
+  const double at_rest =
+      contact::ContactForce(of.model.patches, {}, preload).points(0).at(0).rest_load;
+  double expected = 0.0;
+  for (const solver::ResponsePoint& point : of.curve.curve.points) {
+    const double mean = std::abs(cells.shapes.v.row(0).dot(point.q.mean()));
+    expected = std::max(expected, cells.stiffness(0, 1) * mean / at_rest);
+  }
+  ASSERT_GT(expected, 0.0);
+  EXPECT_NEAR(row_of("mean_coupling", of).effect, expected, 1e-12 * expected);
+}
+
+// μ(σ) = μ₀/(1 + pσ) at the amplitude times the frequency.
+TEST(AlongCurve, TheIndicatorOfRateDependenceIsTheLargestChangeOfTheCoefficient) {
+  Solved of = solved();
+  constexpr double p = 3.0;
+  const double coefficient = of.model.patches.at(0).cells.friction[0];
+  ASSERT_GT(coefficient, 0.0);
+  of.scene.rules.friction = contact::FrictionLaw::hyperbolic(coefficient, p);
+  double fastest = 0.0;
+  for (const solver::ResponsePoint& point : of.curve.curve.points) {
+    const auto u = of.model.patches.at(0).cells.shapes.u.row(0);
+    fastest = std::max(
+        fastest, point.frequency * std::hypot(u.dot(point.q.sine()), u.dot(point.q.cosine())));
+  }
+  const double expected = 1.0 - 1.0 / (1.0 + p * fastest);
+  EXPECT_NEAR(row_of("rate_dependence", of, {{"rate_dependence", of.model}}).effect, expected,
+              1e-12);
 }
 
 TEST(AlongCurve, WhatHasNoIndicatorOfTheMotionTellsNothing) {
   const Solved of = solved();
-  EXPECT_TRUE(rows_along_curve(of.model, {{"cells", of.model}}, of.curve).empty());
+  const auto rows = rows_along_curve(of.model, of.scene, {{"cells", of.model}}, of.curve);
+  for (const ErrorRow& row : rows) EXPECT_NE(row.source, "cells");
 }
 
 TEST(AlongCurve, AnIndicatorIsToldAndIsNoBound) {
@@ -65,10 +120,14 @@ TEST(AlongCurve, AnIndicatorIsToldAndIsNoBound) {
                                      .setting = "off",
                                      .simulated = Simulated::no,
                                      .reason = "asked for"}};
-  tell_bounds({{"a", largest_indicator_goal, "normal_motion", 0.2, ErrorKind::estimated, 0.0},
-               {"b", largest_indicator_goal, "normal_motion", 0.7, ErrorKind::estimated, 0.0}},
-              0.02, effects);
-  EXPECT_EQ(effects[0].reason, "asked for; along the curves its indicator is 0.7 at most (b)");
+  tell_bounds(
+      {{"a", largest_indicator_goal, "normal_motion", 0.2, ErrorKind::estimated, 0.0},
+       {"b", largest_indicator_goal, "normal_motion", 0.7, ErrorKind::estimated, 0.0, 32.5}},
+      0.02, effects);
+  EXPECT_EQ(effects[0].reason,
+            "asked for; along the curves its indicator is 0.7 at most (b at 32.5 Hz)");
+  ASSERT_TRUE(effects[0].along.has_value());
+  EXPECT_EQ(effects[0].along->frequency_hz, 32.5);
   EXPECT_FALSE(effects[0].bound.has_value());
   EXPECT_EQ(effects[0].objection, "");
 }
