@@ -85,6 +85,28 @@ std::optional<double> cost_of(std::string_view name, const EffectFacts& facts) {
          response_seconds(facts.scene, without).total();
 }
 
+/// Of an effect that has no cost in the table though a curve is asked for.
+std::string why_no_cost(std::string_view name, const EffectFacts& facts) {
+  if (in_time(facts.scene)) return "a motion in time is not forecast effect by effect";
+  if (!can_be(name, facts)) return "the scene cannot have it";
+  struct Why {
+    std::string_view name;
+    const char* text;
+  };
+  static constexpr std::array reasons{
+      Why{"normal_motion",
+          "an evaluation takes about as long, how many more a curve needs is not known before"},
+      Why{"mean_coupling", "it comes with normal_motion"},
+      Why{"local_frames", "axes of their own take no time of a curve"},
+      Why{"static_preload", "one static solution, before the curves"},
+      Why{"centrifugal", "modes and a static solution of the rotating body, before the curves"},
+      Why{"wear", "drawn with the maps, after the curves"},
+      Why{"maps", "drawn after the curves"},
+  };
+  const auto found = std::ranges::find(reasons, name, &Why::name);
+  return found == reasons.end() ? "the forecast does not tell it apart" : found->text;
+}
+
 /// Whether the table warns of leaving an effect out: where the user did,
 /// and what would be silent otherwise.
 bool is_watched(const EffectRecord& effect, const EffectFacts& facts) {
@@ -118,6 +140,9 @@ EffectRecord record_of(const EffectRow& row, const EffectFacts& facts) {
     effect.reason += fmt::format("; without it {}", row.lost);
   }
   effect.seconds = cost_of(row.name, facts);
+  if (!effect.seconds && effect.simulated == no && facts.has_contact && facts.scene.response) {
+    effect.reason += fmt::format("; no cost is told: {}", why_no_cost(row.name, facts));
+  }
   effect.refusal = std::move(decision.refusal);
   effect.objection = objection_to(effect, row, facts);
   return effect;

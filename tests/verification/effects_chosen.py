@@ -463,6 +463,15 @@ class WhatOtherKeysGiveIsSwitchedOff(unittest.TestCase):
 
 
 class NothingIsHidden(unittest.TestCase):
+    def test_what_is_left_out_has_a_cost_or_the_reason_why_none(self):
+        told = subprocess.run([PROGRAM, "check", "--json", scene("costs"), "--set", "response.harmonics=3"], capture_output=True, text=True,
+                              check=True, env=without_plots())
+        rows = json.loads(told.stdout.splitlines()[-1])["effects"]
+        left_out = [row for row in rows if row["simulated"] is False]
+        self.assertGreater(len(left_out), 5)
+        for row in left_out:
+            self.assertEqual(row["seconds"] is None, "no cost is told: " in row["reason"], row)
+
     def test_no_effect_stays_undecided_and_none_that_is_left_out_is_without_its_loss(self):
         summary = run("told", scene("told"), "response.maps=[\"peak\"]")
         for row in summary["effects"]:
