@@ -15,6 +15,7 @@ struct ContinuationOptions {
   double frequency_end = 0.0;    ///< [rad/s], > 0; may be below frequency_begin
   int n_harmonics = 1;           ///< highest harmonic of the unknowns, ≥ 1
   std::vector<int> orders;       ///< the only harmonics of the unknowns; empty: 1 … n_harmonics
+  bool without_mean = false;     ///< beside `orders`: the mean is zero and no unknown
   /// Above 0: one set is chosen for the curve, so that those left out change its highest peaks by
   /// less than this share of the amplitude (enrichment/curve_harmonics.hpp); n_harmonics is the
   /// highest that may be added, `orders` is not used.

@@ -245,7 +245,10 @@ solver::ContinuationOptions continuation_options(const SceneDescription& scene,
       harmonics.chosen() ? most_meant(model, response, harmonics.highest) : harmonics.highest;
   options.orders = harmonics.orders;
   const bool given = options.orders.empty() && !harmonics.chosen();
-  if (given && has_odd_motions(model)) options.orders = odd_orders(harmonics.highest);
+  if (given && has_odd_motions(model)) {
+    options.orders = odd_orders(harmonics.highest);
+    options.without_mean = true;
+  }
   options.harmonic_tolerance = harmonics.tolerance;
   options.search_starts = asked_starts(scene);
   options.judge_stability = scene.judges_stability;

@@ -17,12 +17,13 @@
 
 namespace microslip::solver {
 
-/// D over mean, sine 1, cosine 1, sine 2 …, each a block of N modes: a diagonal, and between the
+/// D over mean, sine 1, cosine 1, sine 2 …, each a block of N modes, or without the mean: a diagonal, and between the
 /// sine and the cosine of a harmonic another. Its inverse and its transpose are of the same kind.
 struct PairedDiagonal {
   Eigen::Index n_modes = 0;
-  Eigen::VectorXd diagonal;  ///< n
-  Eigen::VectorXd coupling;  ///< n; of a sine: with its cosine, of a cosine: with its sine
+  Eigen::Index orders_begin = 0;  ///< the first sine
+  Eigen::VectorXd diagonal;       ///< n
+  Eigen::VectorXd coupling;       ///< n; of a sine: with its cosine, of a cosine: with its sine
 
   /// D B; n rows.
   [[nodiscard]] Eigen::MatrixXd times(const Eigen::MatrixXd& B) const;

@@ -47,8 +47,9 @@ MatrixXd compliance_times_contact(const CondensedJacobian& parts, const PairedDi
     return T * entries.segment(first, N).asDiagonal() * T.transpose();
   };
   MatrixXd result(K.rows(), K.cols());
-  result.topRows(r).noalias() = seen(inverse.diagonal, 0) * K.topRows(r);
-  for (Index s = 1; s * r < K.rows(); s += 2) {
+  const Index first_sine = inverse.orders_begin / N;
+  if (first_sine > 0) result.topRows(r).noalias() = seen(inverse.diagonal, 0) * K.topRows(r);
+  for (Index s = first_sine; s * r < K.rows(); s += 2) {
     const Index c = s + 1;
     const auto of_sine = K.middleRows(s * r, r);
     const auto of_cosine = K.middleRows(c * r, r);
@@ -78,8 +79,9 @@ MatrixXd few_equations(const CondensedJacobian& parts, const PairedDiagonal& inv
     matrix.row(e).tail(K.cols()).noalias() = shape.transpose() * K.middleRows(block * r, r);
     matrix.block(n_kept + block * r, e, r, 1) = -shape;
     matrix(e, e) = parts.own.diagonal[unknown];
-    if (block == 0) continue;
-    const Index other = block % 2 == 1 ? unknown + N : unknown - N;
+    if (unknown < parts.own.orders_begin) continue;
+    const bool is_sine = (unknown - parts.own.orders_begin) / N % 2 == 0;
+    const Index other = is_sine ? unknown + N : unknown - N;
     const auto partner = std::ranges::lower_bound(kept, other);
     matrix(e, std::distance(kept.begin(), partner)) = parts.own.coupling[unknown];
   }

@@ -17,7 +17,9 @@ HarmonicSet least_harmonics(const Scene& scene) {
 
 HarmonicSet first_harmonics(const Scene& scene, const ContinuationOptions& options) {
   if (options.harmonic_tolerance > 0.0) return least_harmonics(scene);
-  return options.orders.empty() ? HarmonicSet(options.n_harmonics) : HarmonicSet(options.orders);
+  if (options.orders.empty()) return {options.n_harmonics};
+  using enum HarmonicSet::Mean;
+  return HarmonicSet(options.orders, options.without_mean ? left_out : unknown);
 }
 
 }  // namespace microslip::solver

@@ -55,7 +55,8 @@ HarmonicBlock harmonic_block(const Eigen::VectorXd& stiffness, const Eigen::Vect
 }
 
 std::vector<Eigen::Index> rows_of(const HarmonicSet& set) {
-  std::vector<Eigen::Index> rows{0};
+  std::vector<Eigen::Index> rows;
+  if (set.has_mean()) rows.push_back(0);
   for (const int k : set.orders()) {
     rows.push_back(2 * k - 1);
     rows.push_back(2 * k);
@@ -73,7 +74,7 @@ HarmonicBalance::HarmonicBalance(const Scene& scene, HarmonicSet set)
   stiffness_ = scene.natural_frequency.array().square();
   damping_ = 2.0 * scene.damping_ratio.array() * scene.natural_frequency.array();
   for (Eigen::Index i = 0; i < n; ++i) {
-    if (scene.natural_frequency[i] == 0.0) rigid_.push_back(i);
+    if (scene.natural_frequency[i] == 0.0 && set_.has_mean()) rigid_.push_back(i);
   }
   stuck_stiffness_ = scene.contact ? scene.contact->stuck_stiffness() : Eigen::MatrixXd::Zero(n, n);
   if (scene.contact) work_ = scene.contact->workspace();
@@ -116,8 +117,8 @@ contact::ForceAndJacobian HarmonicBalance::contact_at(const Eigen::VectorXd& x, 
 void HarmonicBalance::add_linear_residual(const Eigen::VectorXd& x, double frequency,
                                           Eigen::VectorXd& residual) const {
   const Eigen::Index n = scene_.n_modes();
-  residual.head(n) += stiffness_.cwiseProduct(x.head(n));
-  Eigen::Index s = n;
+  Eigen::Index s = orders_begin();
+  residual.head(s) += stiffness_.head(s).cwiseProduct(x.head(s));
   for (const int k : set_.orders()) {
     harmonic_block(stiffness_, damping_, k * frequency).add_product(x, s, residual);
     s += 2 * n;
@@ -126,9 +127,9 @@ void HarmonicBalance::add_linear_residual(const Eigen::VectorXd& x, double frequ
 
 PairedDiagonal HarmonicBalance::linear_jacobian(double frequency) const {
   const Eigen::Index n = scene_.n_modes();
-  PairedDiagonal own{n, Eigen::VectorXd(size()), Eigen::VectorXd::Zero(size())};
-  own.diagonal.head(n) = stiffness_;
-  Eigen::Index s = n;
+  Eigen::Index s = orders_begin();
+  PairedDiagonal own{n, s, Eigen::VectorXd(size()), Eigen::VectorXd::Zero(size())};
+  own.diagonal.head(s) = stiffness_.head(s);
   for (const int k : set_.orders()) {
     const HarmonicBlock block = harmonic_block(stiffness_, damping_, k * frequency);
     own.diagonal.segment(s, 2 * n) = block.dynamic.matrix().replicate(2, 1);
@@ -144,7 +145,7 @@ std::vector<Eigen::Index> HarmonicBalance::resonant_unknowns(double frequency) c
   constexpr double near = 0.1;  // of stiffness and inertia together
   const Eigen::Index n = scene_.n_modes();
   std::vector<Eigen::Index> unknowns;
-  Eigen::Index s = n;
+  Eigen::Index s = orders_begin();
   for (const int k : set_.orders()) {
     const HarmonicBlock block = harmonic_block(stiffness_, damping_, k * frequency);
     const double inertia = (k * frequency) * (k * frequency);
@@ -162,7 +163,7 @@ std::vector<Eigen::Index> HarmonicBalance::resonant_unknowns(double frequency) c
 void HarmonicBalance::add_frequency_derivative(const Eigen::VectorXd& x, double frequency,
                                                BalanceEvaluation& result) const {
   const Eigen::Index n = scene_.n_modes();
-  Eigen::Index s = n;
+  Eigen::Index s = orders_begin();
   for (const int k : set_.orders()) {
     const HarmonicBlock by_frequency{Eigen::ArrayXd::Constant(n, -2.0 * k * k * frequency),
                                      k * damping_.array()};
@@ -256,6 +257,15 @@ BalanceEvaluation HarmonicBalance::residual(const Eigen::VectorXd& x, double fre
   return result;
 }
 
+Eigen::MatrixXd HarmonicBalance::derivatives_at(const Harmonics& q, double frequency) {
+  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(size(), size());
+  if (scene_.contact) {
+    jacobian = scene_.contact->evaluate(q, frequency, {.rows = rows_}, *work_).jacobian;
+  }
+  linear_jacobian(frequency).add_to(jacobian);
+  return jacobian;
+}
+
 Harmonics HarmonicBalance::contact_force(const Eigen::VectorXd& x, double frequency,
                                          int n_harmonics) {
   if (!scene_.contact) return {n_harmonics, scene_.n_modes()};
@@ -312,8 +322,9 @@ Eigen::VectorXd HarmonicBalance::linear_response(double frequency,
     x.segment(first, count) = contact::solved(matrix, excitation_.segment(first, count));
   };
   // Where a mean is any it is zero.
-  if (rigid_.empty() || !excitation_.head(n).isZero(0.0)) solve(0, 0, n);
-  Eigen::Index first = n;
+  Eigen::Index first = orders_begin();
+  const bool is_loaded = rigid_.empty() || !excitation_.head(first).isZero(0.0);
+  if (set_.has_mean() && is_loaded) solve(0, 0, n);
   for (const int k : set_.orders()) {
     // What is not driven rests, at a resonance without damping as well.
     if (!excitation_.segment(first, 2 * n).isZero(0.0)) solve(k, first, 2 * n);

@@ -22,7 +22,8 @@
 
 namespace microslip::solver {
 
-/// R and its derivatives at one iterate; n = (2 · number of harmonics + 1) · n_modes.
+/// R and its derivatives at one iterate; n = (2 · number of harmonics + 1) · n_modes, without the
+/// mean one less.
 struct BalanceEvaluation {
   Eigen::VectorXd residual;              ///< R [N/√kg], n
   BalanceJacobian jacobian;              ///< ∂R/∂x [1/s²], n × n
@@ -42,6 +43,8 @@ class HarmonicBalance {
 
   [[nodiscard]] Eigen::Index size() const { return excitation_.size(); }
   [[nodiscard]] const HarmonicSet& set() const { return set_; }
+  /// Where the sine of the first order begins: behind the mean, if that is unknown.
+  [[nodiscard]] Eigen::Index orders_begin() const { return set_.has_mean() ? scene_.n_modes() : 0; }
   [[nodiscard]] const Scene& scene() const { return scene_; }
   [[nodiscard]] const Eigen::VectorXd& excitation() const { return excitation_; }
   /// x with zeros for what is left out, up to the highest harmonic of the set.
@@ -55,6 +58,9 @@ class HarmonicBalance {
   [[nodiscard]] BalanceEvaluation evaluate(const Eigen::VectorXd& x, double frequency);
   /// The same without derivatives, which are empty; several times cheaper.
   [[nodiscard]] BalanceEvaluation residual(const Eigen::VectorXd& x, double frequency);
+  /// ∂R/∂x by the unknowns of this at a motion that may have other harmonics as well, at least as
+  /// many.
+  [[nodiscard]] Eigen::MatrixXd derivatives_at(const Harmonics& q, double frequency);
   /// λ of the contact and 1 − λ of a linear stiffness in its place; the parameter is λ:
   ///   R = L x + λ G + (1 − λ) S x − Q
   /// @param stiffness  S on every harmonic [1/s²], n_modes × n_modes; zero: from the free limit.

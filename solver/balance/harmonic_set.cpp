@@ -16,7 +16,8 @@ HarmonicSet::HarmonicSet(int highest) {
   std::iota(orders_.begin(), orders_.end(), 1);
 }
 
-HarmonicSet::HarmonicSet(std::vector<int> orders) : orders_(std::move(orders)) {
+HarmonicSet::HarmonicSet(std::vector<int> orders, Mean mean)
+    : orders_(std::move(orders)), mean_(mean) {
   std::sort(orders_.begin(), orders_.end());
   orders_.erase(std::unique(orders_.begin(), orders_.end()), orders_.end());
   if (orders_.empty() || orders_.front() < 1) {
@@ -33,7 +34,7 @@ bool HarmonicSet::contains(int order) const {
 HarmonicSet HarmonicSet::united(const std::vector<int>& orders) const {
   std::vector<int> all = orders_;
   all.insert(all.end(), orders.begin(), orders.end());
-  return HarmonicSet(std::move(all));
+  return HarmonicSet(std::move(all), mean_);
 }
 
 }  // namespace microslip::solver

@@ -88,7 +88,10 @@ Scene with_force(const Scene& scene, std::unique_ptr<contact::ModalForce> force)
 
 /// A linear response has the harmonics of its excitation alone.
 ContinuationOptions with_excited_harmonics(const Scene& scene, const ContinuationOptions& options) {
-  return with_harmonics(options, least_harmonics(scene));
+  using enum HarmonicSet::Mean;
+  const bool is_loaded = !scene.excitation.mean().isZero(0.0);
+  return with_harmonics(
+      options, HarmonicSet(least_harmonics(scene).orders(), is_loaded ? unknown : left_out));
 }
 
 /// What was evaluated was linear.
@@ -145,8 +148,10 @@ std::optional<ResponseCurve> trace_at_rest(const Scene& scene, const Continuatio
   const BalanceEvaluation at = balance.evaluate(rest, options.frequency_begin);
   if (!(at.residual.norm() <= options.residual_tolerance)) return std::nullopt;
   const Eigen::Index n = scene.n_modes();
+  const Eigen::Index sine = balance.orders_begin();
   const Scene linear = with_force(
-      scene, std::make_unique<LinearForce>(at.jacobian.dense().block(n, n, n, n), *scene.contact));
+      scene,
+      std::make_unique<LinearForce>(at.jacobian.dense().block(sine, sine, n, n), *scene.contact));
   const ContinuationOptions excited = with_excited_harmonics(scene, options);
   ResponseCurve curve = CurveTracer(linear, excited, observe).run();
   forget_evaluations(curve);

@@ -26,7 +26,8 @@ StabilityReport CurveTracer::judged(const NewtonResult& at, PointMark mark) {
     return slow;
   }
   const double frequency = at.point.parameter;
-  const StabilityReport hill = hill_stability(*balance_, frequency, slow);
+  const StabilityReport hill =
+      hill_stability(*balance_, balance_->harmonics(at.point.x), frequency, slow);
   if (mark == PointMark::fold) return hill;
   const bool is_peak = mark == PointMark::peak;
   return stability_in_time(*balance_, balance_->harmonics(at.point.x), frequency, hill,

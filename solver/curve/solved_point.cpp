@@ -15,7 +15,8 @@ ResponsePoint solved_point(HarmonicBalance& balance, const NewtonResult& solutio
   }
   const auto stability =
       stability_in_time(balance, balance.harmonics(solution.point.x), frequency,
-                        assess_stability(balance, solution.evaluation.jacobian, frequency),
+                        assess_stability(balance, solution.evaluation.jacobian,
+                                         balance.harmonics(solution.point.x), frequency),
                         PeriodMapEffort::few_points);
   return certified_point(balance, solution, frequency, stability);
 }

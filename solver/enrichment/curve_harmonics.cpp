@@ -128,6 +128,7 @@ ContinuationOptions with_harmonics(const ContinuationOptions& range, const Harmo
   given.harmonic_tolerance = 0.0;
   given.n_harmonics = set.highest();
   given.orders = set.orders();
+  given.without_mean = !set.has_mean();
   return given;
 }
 

@@ -23,7 +23,7 @@ std::vector<DroppedHarmonic> dropped_harmonics(HarmonicBalance& balance, const L
   const Eigen::VectorXd adjoint = factors.solve_transposed(goal);
   std::vector<DroppedHarmonic> result;
   const Eigen::Index size = 2 * balance.scene().n_modes();
-  Eigen::Index first = balance.scene().n_modes();
+  Eigen::Index first = balance.orders_begin();
   for (const int order : balance.set().orders()) {
     Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(n + 1, size);
     unit.middleRows(first, size).setIdentity();

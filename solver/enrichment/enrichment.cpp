@@ -37,8 +37,8 @@ std::vector<RicherShare> richer_shares(HarmonicBalance& richer, const LocalPeak&
     shares.push_back({order, change / output.half_peak_to_peak});
   };
   const Eigen::Index n = richer.scene().n_modes();
-  add(0, 0, n);
-  Eigen::Index first = n;
+  Eigen::Index first = richer.orders_begin();
+  if (first > 0) add(0, 0, n);
   for (const int order : richer.set().orders()) {
     add(order, first, 2 * n);
     first += 2 * n;

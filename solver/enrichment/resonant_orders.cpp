@@ -51,7 +51,7 @@ std::vector<int> resonant_orders(const HarmonicBalance& balance, const BranchVec
                                  const Eigen::MatrixXd& jacobian, const Harmonics& force,
                                  double least) {
   const Eigen::Index n = balance.scene().n_modes();
-  const double response = least * at.x.segment(n, 2 * n).norm();
+  const double response = least * at.x.segment(balance.orders_begin(), 2 * n).norm();
   std::vector<int> orders;
   for (const Eigen::MatrixXd& stiffness :
        {Eigen::MatrixXd(Eigen::MatrixXd::Zero(n, n)), balance.stuck_stiffness(),

@@ -74,9 +74,8 @@ std::vector<Eigen::Index> moving_modes(const HarmonicBalance& balance, double fr
 }
 
 /// As many as Hill's problem can hold.
-std::vector<int> low_orders(const HarmonicBalance& balance, Eigen::Index n_modes) {
-  const auto room = static_cast<std::size_t>(most_states / (4 * n_modes));
-  std::vector<int> orders = balance.set().orders();
+std::vector<int> low_orders(std::vector<int> orders, std::size_t n_modes) {
+  const auto room = static_cast<std::size_t>(most_states) / (4 * n_modes);
   orders.resize(std::min(orders.size(), std::max<std::size_t>(room, 2)));
   return orders;
 }
@@ -87,17 +86,14 @@ std::vector<int> united(const std::vector<int>& a, const std::vector<int>& b) {
   return all;
 }
 
-/// To what the slow flow and Hill's problem ask for.
+/// @param orders, modes  to be kept, ascending.
 ReducedBalance reduced(const HarmonicBalance& balance, const BalanceJacobian& jacobian,
-                       double frequency) {
-  const bool single = balance.set().highest() == 1;
-  ReducedBalance result;
-  result.modes = single ? all_modes(balance.scene()) : moving_modes(balance, frequency);
-  const auto n_kept = static_cast<Eigen::Index>(result.modes.size());
-  result.orders = united(slow_orders(balance, frequency), low_orders(balance, n_kept));
-  std::vector<Eigen::Index> low = result.modes;
+                       std::vector<int> orders, std::vector<Eigen::Index> modes) {
+  ReducedBalance result{balance.set().has_mean(), std::move(orders), std::move(modes), {}};
+  std::vector<Eigen::Index> low;
+  if (result.has_mean) low = result.modes;
   const Eigen::Index n = balance.scene().n_modes();
-  Eigen::Index first = n;
+  Eigen::Index first = balance.orders_begin();
   for (const int k : balance.set().orders()) {
     const bool is_kept = std::binary_search(result.orders.begin(), result.orders.end(), k);
     for (const Eigen::Index end = first + 2 * n; first < end; first += n) {
@@ -109,20 +105,43 @@ ReducedBalance reduced(const HarmonicBalance& balance, const BalanceJacobian& ja
   return result;
 }
 
+/// To what the slow flow and Hill's problem ask for.
+ReducedBalance reduced(const HarmonicBalance& balance, const BalanceJacobian& jacobian,
+                       double frequency) {
+  const bool single = balance.set().highest() == 1;
+  std::vector<Eigen::Index> modes =
+      single ? all_modes(balance.scene()) : moving_modes(balance, frequency);
+  std::vector<int> orders =
+      united(slow_orders(balance, frequency), low_orders(balance.set().orders(), modes.size()));
+  return reduced(balance, jacobian, std::move(orders), std::move(modes));
+}
+
+/// Of a motion that changes sign after half a period: the mean and the first even harmonics.
+/// Nothing couples odd perturbations and even ones, and an exponent of one is that of the other
+/// shifted by the frequency: those centred on harmonic 0 are even.
+ReducedBalance even_part(const Scene& scene, const Harmonics& q, double frequency,
+                         std::vector<Eigen::Index> modes) {
+  std::vector<int> orders;
+  for (int k = 2; k <= q.n_harmonics(); k += 2) orders.push_back(k);
+  orders = low_orders(std::move(orders), modes.size());
+  HarmonicBalance even(scene, HarmonicSet(orders));
+  return reduced(even, even.derivatives_at(q, frequency), std::move(orders), std::move(modes));
+}
+
 /// @param orders  some of those that it has.
 ReducedBalance with_orders(const ReducedBalance& balance, const std::vector<int>& orders) {
   if (orders == balance.orders) return balance;
   const auto n = static_cast<Eigen::Index>(balance.modes.size());
-  std::vector<Eigen::Index> low(balance.modes.size());
+  std::vector<Eigen::Index> low(balance.has_mean ? balance.modes.size() : 0);
   std::iota(low.begin(), low.end(), Eigen::Index{0});
-  Eigen::Index first = n;
+  auto first = static_cast<Eigen::Index>(low.size());
   for (const int k : balance.orders) {
     for (Eigen::Index i = first; i < first + 2 * n; ++i) {
       if (std::binary_search(orders.begin(), orders.end(), k)) low.push_back(i);
     }
     first += 2 * n;
   }
-  return {orders, balance.modes, schur_complement(balance.jacobian, low)};
+  return {balance.has_mean, orders, balance.modes, schur_complement(balance.jacobian, low)};
 }
 
 /// Of the modes kept.
@@ -131,17 +150,18 @@ Eigen::VectorXd damping_of(const Scene& scene, const ReducedBalance& balance) {
          scene.damping_ratio(balance.modes).cwiseProduct(scene.natural_frequency(balance.modes));
 }
 
-/// States (B, A^(1), …, A^(H), Ḃ): −M⁻¹ ∂R/∂x for the harmonics, second order for the mean.
+/// States (B, A^(1), …, A^(H), Ḃ): −M⁻¹ ∂R/∂x for the harmonics, second order for the mean, where
+/// that is unknown.
 Eigen::MatrixXd slow_flow(const Scene& scene, const ReducedBalance& balance, double frequency) {
   const auto n = static_cast<Eigen::Index>(balance.modes.size());
   const Eigen::MatrixXd& jacobian = balance.jacobian;
   const Eigen::Index size = jacobian.rows();
   const Eigen::VectorXd damping = damping_of(scene, balance);
-  Eigen::MatrixXd flow = Eigen::MatrixXd::Zero(size + n, size + n);
-  flow.block(0, size, n, n).setIdentity();
-  flow.block(size, 0, n, size) = -jacobian.topRows(n);
-  flow.block(size, size, n, n).diagonal() = -damping;
-  Eigen::Index s = n;
+  Eigen::Index s = balance.has_mean ? n : 0;
+  Eigen::MatrixXd flow = Eigen::MatrixXd::Zero(size + s, size + s);
+  flow.block(0, size, s, s).setIdentity();
+  flow.block(size, 0, s, size) = -jacobian.topRows(s);
+  flow.block(size, size, s, s).diagonal() = -damping.head(s);
   for (const int k : balance.orders) {
     const Eigen::Index c = s + n;
     const double spin = 2.0 * k * frequency;
@@ -168,7 +188,7 @@ Eigen::MatrixXd hill_matrix(const Scene& scene, const ReducedBalance& balance, d
   matrix.bottomLeftCorner(size, size) = -balance.jacobian / (frequency * frequency);
   auto delta = matrix.bottomRightCorner(size, size);  // −Δ/ω
   delta.diagonal() = -damping.replicate(size / n, 1);
-  Eigen::Index s = n;
+  Eigen::Index s = balance.has_mean ? n : 0;
   for (const int k : balance.orders) {
     delta.block(s, s + n, n, n).diagonal().setConstant(2.0 * k);
     delta.block(s + n, s, n, n).diagonal().setConstant(-2.0 * k);
@@ -178,12 +198,13 @@ Eigen::MatrixXd hill_matrix(const Scene& scene, const ReducedBalance& balance, d
 }
 
 /// Mean harmonic of an eigenvector, from −H to H: S sin kθ + C cos kθ has (C ∓ iS)/2 at ±k.
-double centre_of(const Eigen::VectorXcd& p, const std::vector<int>& orders, Eigen::Index n) {
+double centre_of(const Eigen::VectorXcd& p, const ReducedBalance& balance) {
   constexpr std::complex<double> i{0.0, 1.0};
+  const auto n = static_cast<Eigen::Index>(balance.modes.size());
+  Eigen::Index s = balance.has_mean ? n : 0;
   double moment = 0.0;
-  double size = p.head(n).squaredNorm();
-  Eigen::Index s = n;
-  for (const int k : orders) {
+  double size = p.head(s).squaredNorm();
+  for (const int k : balance.orders) {
     const auto sine = p.segment(s, n);
     const auto cosine = p.segment(s + n, n);
     const double ahead = 0.25 * (cosine - i * sine).squaredNorm();
@@ -263,7 +284,7 @@ StabilityReport slow_flow_stability(const HarmonicBalance& balance, const Balanc
   return report;
 }
 
-StabilityReport hill_stability(const HarmonicBalance& balance, double frequency,
+StabilityReport hill_stability(const HarmonicBalance& balance, const Harmonics& q, double frequency,
                                StabilityReport slow) {
   StabilityReport report = slow;
   const Harmonics rest(1, balance.scene().n_modes());
@@ -277,7 +298,10 @@ StabilityReport hill_stability(const HarmonicBalance& balance, double frequency,
   report.basis = StabilityBasis::hill;
   const Scene& scene = balance.scene();
   const auto n = static_cast<Eigen::Index>(slow.reduced->modes.size());
-  const ReducedBalance low = with_orders(*slow.reduced, low_orders(balance, n));
+  const ReducedBalance low =
+      slow.reduced->has_mean ? with_orders(*slow.reduced, low_orders(balance.set().orders(),
+                                                                     slow.reduced->modes.size()))
+                             : even_part(scene, q, frequency, slow.reduced->modes);
   const Eigen::MatrixXd matrix = hill_matrix(scene, low, frequency);
   if (!matrix.allFinite()) return report;
   const auto pairs = contact::general_pairs(matrix);
@@ -285,7 +309,7 @@ StabilityReport hill_stability(const HarmonicBalance& balance, double frequency,
   const Eigen::MatrixXcd vectors = pairs->vectors.topRows(low.jacobian.rows());
   std::vector<std::pair<double, Eigen::Index>> centres;
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    centres.emplace_back(std::abs(centre_of(vectors.col(i), low.orders, n)), i);
+    centres.emplace_back(std::abs(centre_of(vectors.col(i), low)), i);
   }
   std::sort(centres.begin(), centres.end());
   double real_growth = -std::numeric_limits<double>::infinity();
@@ -334,8 +358,8 @@ StabilityReport stability_in_time(const HarmonicBalance& balance, const Harmonic
 }
 
 StabilityReport assess_stability(const HarmonicBalance& balance, const BalanceJacobian& jacobian,
-                                 double frequency) {
-  return hill_stability(balance, frequency, slow_flow_stability(balance, jacobian, frequency));
+                                 const Harmonics& q, double frequency) {
+  return hill_stability(balance, q, frequency, slow_flow_stability(balance, jacobian, frequency));
 }
 
 }  // namespace microslip::solver

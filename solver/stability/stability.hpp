@@ -35,6 +35,7 @@ namespace microslip::solver {
 /// A balance reduced to some harmonics of some modes: what is left out follows without inertia or
 /// memory of its own, which keeps the zeros of the determinant (condensed.hpp).
 struct ReducedBalance {
+  bool has_mean = true;
   std::vector<int> orders;
   std::vector<Eigen::Index> modes;
   Eigen::MatrixXd jacobian;
@@ -62,9 +63,12 @@ struct StabilityReport {
 
 /// The same judged by Hill's exponents where there are several harmonics and the scene is no damped
 /// linear one.
+/// Where the mean is no unknown, motions change sign after half a period: then by the mean and even
+/// harmonics of a perturbation, which have all exponents that odd ones have.
+/// @param q     harmonics of the point.
 /// @param slow  slow_flow_stability() of the same point.
-[[nodiscard]] StabilityReport hill_stability(const HarmonicBalance& balance, double frequency,
-                                             StabilityReport slow);
+[[nodiscard]] StabilityReport hill_stability(const HarmonicBalance& balance, const Harmonics& q,
+                                             double frequency, StabilityReport slow);
 
 /// What a verdict may cost.
 enum class PeriodMapEffort {
@@ -89,6 +93,7 @@ enum class PeriodMapEffort {
 
 /// slow_flow_stability() and hill_stability().
 [[nodiscard]] StabilityReport assess_stability(const HarmonicBalance& balance,
-                                               const BalanceJacobian& jacobian, double frequency);
+                                               const BalanceJacobian& jacobian, const Harmonics& q,
+                                               double frequency);
 
 }  // namespace microslip::solver

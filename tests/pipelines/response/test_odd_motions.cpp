@@ -2,7 +2,9 @@
 // unknowns.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <string>
 #include <vector>
 
@@ -10,6 +12,8 @@
 #include "pipelines/effects/model_family.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/scene/scene_file.hpp"
+#include "solver/balance/harmonic_balance.hpp"
+#include "solver/stability/stability.hpp"
 
 namespace microslip::pipelines::test_odd_motions {
 namespace {
@@ -42,6 +46,7 @@ harmonics = 6
 
 struct Study {
   std::vector<int> orders;
+  bool without_mean = false;
   solver::ResponseCurve curve;
 };
 
@@ -51,7 +56,8 @@ Study solved(const Overrides& overrides) {
   const ReducedModel model = model_of(scene, nullptr, warnings);
   const CurveResult result =
       trace_curve(model, scene, curve_requests(scene).at(0), [](const auto&) { return true; });
-  return {continuation_options(scene, model).orders, result.curve};
+  const solver::ContinuationOptions options = continuation_options(scene, model);
+  return {options.orders, options.without_mean, result.curve};
 }
 
 const std::vector<int> odd{1, 3, 5, 6};  // and the highest, whose columns are asked for
@@ -61,6 +67,8 @@ TEST(OddMotions, EvenHarmonicsOfContactUnderAConstantLoadAreNoUnknowns) {
     const Study lean = solved({plane});
     const Study all = solved({plane, "response.harmonics=[1, 2, 3, 4, 5, 6]"});
     EXPECT_EQ(lean.orders, odd);
+    EXPECT_TRUE(lean.without_mean);
+    EXPECT_FALSE(all.without_mean);
     EXPECT_EQ(all.orders.size(), 6U);
     ASSERT_TRUE(lean.curve.complete && all.curve.complete);
     const solver::ResponsePoint& own = *highest_peak(lean.curve);
@@ -77,10 +85,38 @@ TEST(OddMotions, WhatMayBreakTheSymmetryKeepsThem) {
   for (const char* one :
        {"modal.points[0].phi_v_1=0.1", "modal.force_static=[1, 0, 0]",
         "contact.friction_law={ law = \"exponential\", static = 0.5, kinetic = 0.4, rate = 2 }"}) {
-    EXPECT_TRUE(solved({one, "response.harmonics=3"}).orders.empty()) << one;
+    const Study kept = solved({one, "response.harmonics=3"});
+    EXPECT_TRUE(kept.orders.empty() && !kept.without_mean) << one;
   }
   EXPECT_EQ(solved({"modal.points[0].phi_v_1=0.1", "effects.normal_motion=off"}).orders, odd);
   EXPECT_EQ(solved({"response.harmonics=7"}).orders, (std::vector<int>{1, 3, 5, 7}));
+}
+
+/// Largest growth of Hill's exponents at a motion [rad/s].
+double growth(const solver::Scene& scene, const solver::HarmonicSet& set,
+              const solver::ResponsePoint& at) {
+  solver::HarmonicBalance balance(scene, set);
+  const auto evaluation = balance.evaluate(balance.unknowns(at.q), at.frequency);
+  return solver::assess_stability(balance, evaluation.jacobian, at.q, at.frequency).growth;
+}
+
+// The even half of the perturbations has the exponents of all; both are cut off at some harmonic.
+TEST(OddMotions, ExponentsAreThoseOfAllHarmonics) {
+  const SceneDescription scene =
+      parse_scene(point, "scene.toml", "/nowhere", {"response.harmonics=9"});
+  std::vector<std::string> warnings;
+  const ReducedModel model = model_of(scene, nullptr, warnings);
+  const solver::Scene solved_one = solver_scene(model, 1.0);
+  const Study lean = solved({"response.harmonics=9"});
+  const solver::HarmonicSet odd_alone({1, 3, 5, 7, 9}, solver::HarmonicSet::Mean::left_out);
+  double largest = 0.0;
+  for (const solver::ResponsePoint& at : lean.curve.points) {
+    const double all = growth(solved_one, 9, at);
+    ASSERT_LT(all, 0.0);
+    largest = std::max(largest, std::abs(growth(solved_one, odd_alone, at) / all - 1.0));
+  }
+  std::cout << "exponents differ by " << largest << '\n';
+  EXPECT_LT(largest, 1e-6);
 }
 
 TEST(OddMotions, OrdersThatAreAskedForAreKept) {

@@ -31,7 +31,7 @@ MatrixXd numbers(Index rows, Index columns, unsigned seed) {
 BalanceEvaluation evaluation(double frequency, double damping_ratio, double contact,
                              unsigned seed) {
   CondensedJacobian parts;
-  parts.own = {n_modes, VectorXd(size), VectorXd::Zero(size)};
+  parts.own = {n_modes, n_modes, VectorXd(size), VectorXd::Zero(size)};
   for (Index block = 0; block < n_blocks; ++block) {
     const double turn = static_cast<double>((block + 1) / 2) * frequency;
     for (Index mode = 0; mode < n_modes; ++mode) {

@@ -24,7 +24,8 @@ TEST(Stability, SlowFlowOfALinearModeDecaysWithItsDamping) {
   const Scene scene = duffing.scene();
   HarmonicBalance balance(scene, 1);
   const auto at = balance.evaluate(Eigen::VectorXd::Zero(3), 1.0);
-  const StabilityReport report = assess_stability(balance, at.jacobian, 1.0);
+  const StabilityReport report =
+      assess_stability(balance, at.jacobian, contact::Harmonics(1, 1), 1.0);
   EXPECT_EQ(report.stability, Stability::stable);
   EXPECT_EQ(report.determinant_sign, 1.0);
   // −ζω to the order of the slow flow, which errs by ζ² itself.
@@ -63,7 +64,8 @@ TEST(Stability, DeterminantAndGrowthJudgeAlike) {
     for (const auto& point : trace_response(scene, options).points) {
       if (point.mark == PointMark::fold) continue;  // neutral
       const auto at = balance.evaluate(point.q.vector(), point.frequency);
-      const StabilityReport report = assess_stability(balance, at.jacobian, point.frequency);
+      const StabilityReport report =
+          assess_stability(balance, at.jacobian, point.q, point.frequency);
       EXPECT_EQ(report.growth > 0.0, report.determinant_sign < 0.0) << preload;
     }
   }
