@@ -41,7 +41,11 @@ SpentSeconds spent_on(const Solution& solution) {
 std::optional<SolvedAgain> refined(const Solution& before, const Refinement& step, int jobs,
                                    Progress& progress, std::string& obstacle) {
   std::optional<SolvedAgain> round = solved_again(before, step, jobs, progress, obstacle);
-  if (round && largest_bar(round->solution.budgets) > largest_bar(before.budgets)) {
+  // A coarse mesh tells too small an error where elements twice as large miss a part of the body:
+  // that of a finer one is told better, though it may be the larger one.
+  constexpr double of_coarse_mesh = 1.5;
+  const double most = (step.new_mesh ? of_coarse_mesh : 1.0) * largest_bar(before.budgets);
+  if (round && largest_bar(round->solution.budgets) > most) {
     obstacle = "the errors are larger then";
     return std::nullopt;
   }

@@ -204,7 +204,9 @@ TEST(MinimisePeak, CountsSolutionsBesideTheCurveAtTheBestValueUnasked) {
   const auto family = [](double p) {
     return tests::isola_scene(0.5 * (1.0 + (p - 1.0) * (p - 1.0)));
   };
-  OptimumOptions options{.lower = 0.8, .upper = 1.3};
+  OptimumOptions options;
+  options.lower = 0.8;
+  options.upper = 1.3;
   for (const double tolerance : {1e-7, 3e-3}) {
     options.amplitude_tolerance = tolerance;
     const Optimum best = minimise_peak(family, frequency_range(0.6, 1.4), options);
