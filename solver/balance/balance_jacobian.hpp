@@ -17,8 +17,9 @@
 
 namespace microslip::solver {
 
-/// D over mean, sine 1, cosine 1, sine 2 …, each a block of N modes, or without the mean: a diagonal, and between the
-/// sine and the cosine of a harmonic another. Its inverse and its transpose are of the same kind.
+/// D over mean, sine 1, cosine 1, sine 2 …, each a block of N modes, or without the mean: a
+/// diagonal, and between the sine and the cosine of a harmonic another. Its inverse and its
+/// transpose are of the same kind.
 struct PairedDiagonal {
   Eigen::Index n_modes = 0;
   Eigen::Index orders_begin = 0;  ///< the first sine
@@ -37,7 +38,8 @@ struct PairedDiagonal {
 struct CondensedJacobian {
   PairedDiagonal own;                                        ///< D [1/s²]
   std::shared_ptr<const contact::FewerDerivatives> contact;  ///< T and K, rows · r
-  /// Unknowns, ascending, whose own stiffness nearly vanishes, at a resonance: not to be divided by.
+  /// Unknowns, ascending, whose own stiffness nearly vanishes, at a resonance: not to be divided
+  /// by.
   std::vector<Eigen::Index> resonant;
 };
 
