@@ -63,7 +63,7 @@ CASES = {
     "bar, uneven, larger": Case("bar_quadratic_3100"),
     "chain, open": Case("chain_3dof_normal", (preload(-20, -5),)),
     "chain, best preload": Case("chain_3dof_normal", (preload(70, 85, 100),), in_ci=True),
-    "chain, low friction": Case("chain_3dof_normal", ("contact.points.0.friction_coefficient=0.1", preload(30, 60))),
+    "chain, low friction": Case("chain_3dof_normal", ("contact.points[0].friction_coefficient=0.1", preload(30, 60))),
     "patch with a moment": Case("chain_2dof_moment", (preload(50, 200),)),
     "rough block, two directions": Case("block_rough", (preload(10, 40),), ("response.harmonics=13",)),
     "meshed blade, slipping": Case("blade_to_ground", (*MESHED, preload(100)), FINE, finest=0.01),
