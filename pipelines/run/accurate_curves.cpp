@@ -43,8 +43,11 @@ std::optional<SolvedAgain> refined(const Solution& before, const Refinement& ste
   std::optional<SolvedAgain> round = solved_again(before, step, jobs, progress, obstacle);
   // A coarse mesh tells too small an error where elements twice as large miss a part of the body:
   // that of a finer one is told better, though it may be the larger one.
+  // Where time may be over before the next round, what is told counts.
   constexpr double of_coarse_mesh = 1.5;
-  const double most = (step.new_mesh ? of_coarse_mesh : 1.0) * largest_bar(before.budgets);
+  const bool has_time = !std::isfinite(before.scene.accuracy.budget);
+  const double most =
+      (step.new_mesh && has_time ? of_coarse_mesh : 1.0) * largest_bar(before.budgets);
   if (round && largest_bar(round->solution.budgets) > most) {
     obstacle = "the errors are larger then";
     return std::nullopt;

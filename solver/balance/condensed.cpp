@@ -209,9 +209,11 @@ MatrixXd schur_complement(const BalanceJacobian& jacobian, const Unknowns& low) 
   Unknowns high;
   MatrixXd whole;
   Unknowns first = low;  // places of those that stay
-  if (const CondensedJacobian* parts = jacobian.parts()) {
-    Unknowns kept;
-    std::ranges::set_union(low, parts->resonant, std::back_inserter(kept));
+  const CondensedJacobian* parts = jacobian.parts();
+  Unknowns kept;
+  if (parts != nullptr) std::ranges::set_union(low, parts->resonant, std::back_inserter(kept));
+  const auto few = [&] { return static_cast<Index>(kept.size()) + n_few(*parts); };
+  if (parts != nullptr && few() < parts->own.diagonal.size()) {
     whole = few_equations(*parts, parts->own.inverse_without(kept), kept);
     for (Index& unknown : first) {
       unknown = std::distance(kept.begin(), std::ranges::lower_bound(kept, unknown));

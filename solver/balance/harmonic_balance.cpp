@@ -140,11 +140,19 @@ PairedDiagonal HarmonicBalance::linear_jacobian(double frequency) const {
   return own;
 }
 
-/// Harmonics near a natural frequency, where what a mode answers with is not told by its stiffness.
+/// Harmonics near a natural frequency, where what a mode answers with is not told by its stiffness,
+/// and what is soft beside the contact.
 std::vector<Eigen::Index> HarmonicBalance::resonant_unknowns(double frequency) const {
-  constexpr double near = 0.1;  // of stiffness and inertia together
+  constexpr double near = 0.1;   // of stiffness and inertia together
+  constexpr double soft = 1e-4;  // of the stiffness of the contact that sticks
   const Eigen::Index n = scene_.n_modes();
+  const auto is_soft = [&](double own, Eigen::Index mode) {
+    return own < soft * stuck_stiffness_(mode, mode);
+  };
   std::vector<Eigen::Index> unknowns;
+  for (Eigen::Index i = 0; i < orders_begin(); ++i) {
+    if (is_soft(stiffness_[i], i)) unknowns.push_back(i);
+  }
   Eigen::Index s = orders_begin();
   for (const int k : set_.orders()) {
     const HarmonicBlock block = harmonic_block(stiffness_, damping_, k * frequency);
@@ -152,7 +160,8 @@ std::vector<Eigen::Index> HarmonicBalance::resonant_unknowns(double frequency) c
     for (const Eigen::Index first : {s, s + n}) {
       for (Eigen::Index i = 0; i < n; ++i) {
         const double left = std::hypot(block.dynamic[i], block.viscous[i]);
-        if (!(left > near * (stiffness_[i] + inertia))) unknowns.push_back(first + i);
+        const bool is_near = !(left > near * (stiffness_[i] + inertia));
+        if (is_near || is_soft(left, i)) unknowns.push_back(first + i);
       }
     }
     s += 2 * n;
@@ -263,6 +272,7 @@ Eigen::MatrixXd HarmonicBalance::derivatives_at(const Harmonics& q, double frequ
     jacobian = scene_.contact->evaluate(q, frequency, {.rows = rows_}, *work_).jacobian;
   }
   linear_jacobian(frequency).add_to(jacobian);
+  hold_loose_means(frequency, jacobian);
   return jacobian;
 }
 

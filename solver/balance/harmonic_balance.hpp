@@ -23,7 +23,7 @@
 namespace microslip::solver {
 
 /// R and its derivatives at one iterate; n = (2 · number of harmonics + 1) · n_modes, without the
-/// mean one less.
+/// mean n_modes less.
 struct BalanceEvaluation {
   Eigen::VectorXd residual;              ///< R [N/√kg], n
   BalanceJacobian jacobian;              ///< ∂R/∂x [1/s²], n × n

@@ -198,7 +198,11 @@ std::optional<BranchVector> condensed_null_vector(const BalanceEvaluation& at,
     const Eigen::VectorXd y = factors.solve(unit);
     if (!y.allFinite()) return std::nullopt;
     const double size = y.norm();
-    row = {y.head(n) / size, y[n] / size};
+    const BranchVector found{y.head(n) / size, y[n] / size};
+    constexpr double rounded = 1e-6;
+    const bool moved = found.x.dot(row.x) + found.parameter * row.parameter < 1.0 - rounded;
+    if (i > 0 && moved) return std::nullopt;  // more than one direction
+    row = found;
     sign = factors.sign_of_determinant();
   }
   if (sign * orientation < 0.0) row = {-row.x, -row.parameter};

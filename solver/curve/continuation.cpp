@@ -149,9 +149,11 @@ std::optional<ResponseCurve> trace_at_rest(const Scene& scene, const Continuatio
   if (!(at.residual.norm() <= options.residual_tolerance)) return std::nullopt;
   const Eigen::Index n = scene.n_modes();
   const Eigen::Index sine = balance.orders_begin();
-  const Scene linear = with_force(
-      scene,
-      std::make_unique<LinearForce>(at.jacobian.dense().block(sine, sine, n, n), *scene.contact));
+  Eigen::MatrixXd stiffness = at.jacobian.dense().block(sine, sine, n, n);
+  stiffness.diagonal().array() -=
+      scene.natural_frequency.array().square() - options.frequency_begin * options.frequency_begin;
+  const Scene linear =
+      with_force(scene, std::make_unique<LinearForce>(std::move(stiffness), *scene.contact));
   const ContinuationOptions excited = with_excited_harmonics(scene, options);
   ResponseCurve curve = CurveTracer(linear, excited, observe).run();
   forget_evaluations(curve);

@@ -264,6 +264,7 @@ std::optional<CurveTracer::Restart> CurveTracer::restart(const BranchWalker& sta
       curve_.contact_evaluations += start.evaluations;
       curve_.iterations += start.iterations;
       if (!start.solution) continue;
+      if (came_from_there && on_the_branch(stalled.now(), start.solution->point)) continue;
       corrected = std::move(*start.solution);
     }
     curve_.log.push_back({from.parameter, plain ? Remedy::fixed_frequency : Remedy::homotopy});

@@ -15,8 +15,9 @@ constexpr double half_bandwidths = 3.0;
 Eigen::MatrixXd held_stiffness(const HarmonicBalance& balance, const Eigen::MatrixXd& jacobian,
                                double frequency) {
   const Eigen::Index n = balance.scene().n_modes();
+  const Eigen::Index s = balance.orders_begin();
   Eigen::MatrixXd stiffness =
-      0.5 * (jacobian.block(n, n, n, n) + jacobian.block(2 * n, 2 * n, n, n));
+      0.5 * (jacobian.block(s, s, n, n) + jacobian.block(s + n, s + n, n, n));
   stiffness.diagonal().array() -=
       balance.scene().natural_frequency.array().square() - frequency * frequency;
   return 0.5 * (stiffness + stiffness.transpose());

@@ -80,8 +80,9 @@ std::vector<int> low_orders(std::vector<int> orders, std::size_t n_modes) {
   return orders;
 }
 
-std::vector<int> united(const std::vector<int>& a, const std::vector<int>& b) {
-  std::vector<int> all;
+template <typename Number>
+std::vector<Number> united(const std::vector<Number>& a, const std::vector<Number>& b) {
+  std::vector<Number> all;
   std::ranges::set_union(a, b, std::back_inserter(all));
   return all;
 }
@@ -123,6 +124,10 @@ ReducedBalance even_part(const Scene& scene, const Harmonics& q, double frequenc
                          std::vector<Eigen::Index> modes) {
   std::vector<int> orders;
   for (int k = 2; k <= q.n_harmonics(); k += 2) orders.push_back(k);
+  {
+    const HarmonicBalance all(scene, HarmonicSet(orders));
+    modes = united(modes, moving_modes(all, frequency));
+  }
   orders = low_orders(std::move(orders), modes.size());
   HarmonicBalance even(scene, HarmonicSet(orders));
   return reduced(even, even.derivatives_at(q, frequency), std::move(orders), std::move(modes));

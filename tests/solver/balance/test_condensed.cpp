@@ -17,8 +17,6 @@ using Eigen::VectorXd;
 
 constexpr Index n_modes = 6;
 constexpr Index n_few = 3;
-constexpr Index n_blocks = 7;  // mean and three harmonics
-constexpr Index size = n_modes * n_blocks;
 
 MatrixXd numbers(Index rows, Index columns, unsigned seed) {
   std::mt19937 generator(seed);
@@ -27,28 +25,43 @@ MatrixXd numbers(Index rows, Index columns, unsigned seed) {
   });
 }
 
+/// Away from every resonance, at one without damping, at two of one harmonic row; with the mean and
+/// without.
+struct Case {
+  double frequency, damping_ratio, contact;
+  bool has_mean;
+};
+const std::vector<Case> cases{{0.6, 1e-2, 4.0, true},   {3.0, 0.0, 4.0, true},
+                              {1.0, 1e-3, 400.0, true}, {7.0, 0.1, 0.0, true},
+                              {0.6, 1e-2, 4.0, false},  {3.0, 0.0, 4.0, false},
+                              {1.0, 1e-3, 400.0, false}};
+
 /// Modes from 1 to 11 rad/s at harmonics of `frequency`, with a contact that has no symmetry.
-BalanceEvaluation evaluation(double frequency, double damping_ratio, double contact,
-                             unsigned seed) {
+BalanceEvaluation evaluation(const Case& one, unsigned seed) {
   CondensedJacobian parts;
-  parts.own = {n_modes, n_modes, VectorXd(size), VectorXd::Zero(size)};
+  const Index first_sine = one.has_mean ? 1 : 0;
+  const Index n_blocks = first_sine + 6;  // three harmonics
+  const Index size = n_modes * n_blocks;
+  parts.own = {n_modes, first_sine * n_modes, VectorXd(size), VectorXd::Zero(size)};
   for (Index block = 0; block < n_blocks; ++block) {
-    const double turn = static_cast<double>((block + 1) / 2) * frequency;
+    const double turn = static_cast<double>((block - first_sine + 2) / 2) * one.frequency *
+                        (block < first_sine ? 0.0 : 1.0);
+    const bool is_sine = (block - first_sine) % 2 == 0;
     for (Index mode = 0; mode < n_modes; ++mode) {
       const double natural = 1.0 + 2.0 * static_cast<double>(mode);
       const Index i = block * n_modes + mode;
       const double dynamic = natural * natural - turn * turn;
-      const double viscous = 2.0 * damping_ratio * natural * turn;
+      const double viscous = 2.0 * one.damping_ratio * natural * turn;
       parts.own.diagonal[i] = dynamic;
-      parts.own.coupling[i] = block % 2 == 1 ? -viscous : viscous;
+      parts.own.coupling[i] = is_sine ? -viscous : viscous;
       if (std::hypot(dynamic, viscous) < 0.1 * (natural * natural + turn * turn)) {
         parts.resonant.push_back(i);
       }
     }
   }
-  parts.contact = std::make_shared<const contact::FewerDerivatives>(
-      contact::FewerDerivatives{numbers(n_few, n_modes, seed),
-                                contact * numbers(n_few * n_blocks, n_few * n_blocks, 100 + seed)});
+  parts.contact = std::make_shared<const contact::FewerDerivatives>(contact::FewerDerivatives{
+      numbers(n_few, n_modes, seed),
+      one.contact * numbers(n_few * n_blocks, n_few * n_blocks, 100 + seed)});
   BalanceEvaluation at;
   at.jacobian = BalanceJacobian(std::move(parts));
   at.parameter_derivative = numbers(size, 1, 200 + seed);
@@ -56,21 +69,15 @@ BalanceEvaluation evaluation(double frequency, double damping_ratio, double cont
   return at;
 }
 
-/// Away from every resonance, at one without damping, at two of one harmonic row.
-struct Case {
-  double frequency, damping_ratio, contact;
-};
-const std::vector<Case> cases{
-    {0.6, 1e-2, 4.0}, {3.0, 0.0, 4.0}, {1.0, 1e-3, 400.0}, {7.0, 0.1, 0.0}};
-
 TEST(BorderedFactors, FewUnknownsSolveWhatAllDo) {
-  const BranchVector row{numbers(size, 1, 3), 0.7};
   const Scaling scaling{.x = 2e-3, .parameter = 3.0, .residual = 0.4};
-  const MatrixXd right = numbers(size + 1, 3, 9);
   for (const Case& one : cases) {
     for (const unsigned seed : {1U, 2U, 3U, 4U}) {
-      const BalanceEvaluation at = evaluation(one.frequency, one.damping_ratio, one.contact, seed);
+      const BalanceEvaluation at = evaluation(one, seed);
       ASSERT_NE(at.jacobian.parts(), nullptr);
+      const Index size = at.residual.size();
+      const BranchVector row{numbers(size, 1, 3), 0.7};
+      const MatrixXd right = numbers(size + 1, 3, 9);
       const MatrixXd whole = bordered(at, row, scaling);
       const BorderedFactors factors(at, row, scaling);
       const MatrixXd expected = whole.lu().solve(right);
@@ -88,7 +95,7 @@ TEST(BorderedFactors, FewUnknownsSolveWhatAllDo) {
 }
 
 TEST(BorderedFactors, AtAResonanceWithoutDampingNothingIsDividedBy) {
-  const BalanceEvaluation at = evaluation(3.0, 0.0, 4.0, 1);
+  const BalanceEvaluation at = evaluation(cases[1], 1);
   const PairedDiagonal& own = at.jacobian.parts()->own;
   EXPECT_EQ((own.diagonal.array() == 0.0 && own.coupling.array() == 0.0).count(), 4);
 }
@@ -96,7 +103,7 @@ TEST(BorderedFactors, AtAResonanceWithoutDampingNothingIsDividedBy) {
 TEST(NullVector, OfFewUnknownsIsThatOfAll) {
   const Scaling scaling{.x = 2e-3, .parameter = 3.0, .residual = 0.4};
   for (const Case& one : cases) {
-    const BalanceEvaluation at = evaluation(one.frequency, one.damping_ratio, one.contact, 6);
+    const BalanceEvaluation at = evaluation(one, 6);
     BalanceEvaluation whole = at;
     whole.jacobian = at.jacobian.dense();
     for (const double orientation : {1.0, -1.0}) {
@@ -110,15 +117,18 @@ TEST(NullVector, OfFewUnknownsIsThatOfAll) {
 }
 
 TEST(SchurComplement, IsThatOfTheWholeMatrix) {
-  const std::vector<Index> low{0, 2, 6, 8, 12, 14, 31, 37};  // pairs of sine and cosine
+  const std::vector<Index> with_mean{6, 8, 12, 14, 18, 24};  // pairs of sine and cosine
   for (const Case& one : cases) {
-    const BalanceEvaluation at = evaluation(one.frequency, one.damping_ratio, one.contact, 5);
+    const BalanceEvaluation at = evaluation(one, 5);
+    const Index shift = one.has_mean ? 0 : -n_modes;
+    std::vector<Index> low = with_mean;
+    for (Index& unknown : low) unknown += shift;
     const MatrixXd expected = schur_complement(at.jacobian.dense(), low);
     const MatrixXd condensed = schur_complement(at.jacobian, low);
     EXPECT_LT((condensed - expected).norm(), 1e-9 * expected.norm()) << one.frequency;
     // The inverse of a part of the inverse.
     const MatrixXd inverse = at.jacobian.dense().inverse();
-    EXPECT_LT((condensed * inverse(low, low) - MatrixXd::Identity(8, 8)).norm(), 1e-7);
+    EXPECT_LT((condensed * inverse(low, low) - MatrixXd::Identity(6, 6)).norm(), 1e-7);
   }
 }
 
