@@ -92,6 +92,12 @@ MatrixXd few_equations(const CondensedJacobian& parts, const PairedDiagonal& inv
 
 MatrixXd rows_of(const MatrixXd& B, const Unknowns& rows) { return B(rows, Eigen::all); }
 
+/// What few equations tell of all unknowns themselves: those kept, and the last.
+void put_in(const MatrixXd& few, const Unknowns& kept, MatrixXd& all) {
+  for (std::size_t e = 0; e < kept.size(); ++e) all.row(kept[e]) = few.row(static_cast<Index>(e));
+  all.bottomRows(1) = few.bottomRows(1);
+}
+
 }  // namespace
 
 contact::LuFactors BorderedFactors::factorised(const BalanceEvaluation& at, const BranchVector& row,
@@ -147,10 +153,7 @@ MatrixXd BorderedFactors::solve(const Eigen::Ref<const MatrixXd>& B) const {
   MatrixXd result(B.rows(), B.cols());
   result.topRows(size) =
       alone - inverse.times(scale * to_modes(parts, force) + by_parameter * few.bottomRows(1));
-  for (Index e = 0; e < n_kept; ++e) {
-    result.row(kept[static_cast<std::size_t>(e)]) = few.row(e);
-  }
-  result.bottomRows(1) = few.bottomRows(1);
+  put_in(few, kept, result);
   return result;
 }
 
@@ -173,10 +176,7 @@ MatrixXd BorderedFactors::solve_transposed(const Eigen::Ref<const MatrixXd>& B) 
   result.topRows(size) =
       alone + turned.times(to_modes(parts, few.middleRows(n_kept, n_few(parts))) -
                            row.x * few.bottomRows(1));
-  for (Index e = 0; e < n_kept; ++e) {
-    result.row(kept[static_cast<std::size_t>(e)]) = few.row(e);
-  }
-  result.bottomRows(1) = few.bottomRows(1);
+  put_in(few, kept, result);
   return result;
 }
 
