@@ -65,9 +65,10 @@ double length_of_step(ElementType type, const Eigen::Vector3d& xi, const Eigen::
   return beyond ? 0.75 * to_apex / move[2] : 1.0;
 }
 
-/// Sound: ξ inside and x(ξ) = x prove it, whatever path Newton took.
-/// A point it loses is called outside.
-bool is_inside(ElementType type, const Eigen::MatrixX3d& nodes, const Eigen::Vector3d& x) {
+/// ξ of a point by Newton's method; empty where it is lost, as far outside.
+/// Sound: x(ξ) = x proves it, whatever the path was.
+std::optional<Eigen::Vector3d> inverse_map(ElementType type, const Eigen::MatrixX3d& nodes,
+                                           const Eigen::Vector3d& x) {
   constexpr int max_steps = 20;
   constexpr double converged = 1e-9;  // of the element, far below the margin
   constexpr double lost = -2.0;       // that far outside, no step of a valid element comes back
@@ -76,14 +77,13 @@ bool is_inside(ElementType type, const Eigen::MatrixX3d& nodes, const Eigen::Vec
     const ElementShapes s = shapes(type, xi);
     const Eigen::Vector3d rest = x - nodes.transpose() * s.values;
     const Eigen::Matrix3d J = nodes.transpose() * s.gradients;
-    if (!(J.determinant() > 0.0)) return false;
+    if (!(J.determinant() > 0.0)) return std::nullopt;
     const Eigen::Vector3d move = J.inverse() * rest;
     xi += length_of_step(type, xi, move) * move;
-    if (depth(type, xi) < lost) return false;
-    if (move.cwiseAbs().maxCoeff() < converged) return depth(type, xi) > margin;
-    if (type == ElementType::tet4) return depth(type, xi) > margin;
+    if (depth(type, xi) < lost) return std::nullopt;
+    if (move.cwiseAbs().maxCoeff() < converged || type == ElementType::tet4) return xi;
   }
-  return false;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -179,12 +179,48 @@ void ElementLocator::fill() {
   }
 }
 
-bool ElementLocator::holds(const ElementReference& element, const Eigen::Vector3d& x) const {
+std::optional<ElementPlace> ElementLocator::place_in(const ElementReference& element,
+                                                     const Eigen::Vector3d& x) const {
   const ElementBlock& block = elements_[element.block];
   Eigen::MatrixX3d own(block.connectivity.cols(), 3);
   for (Eigen::Index a = 0; a < own.rows(); ++a)
     own.row(a) = nodes_.row(block.connectivity(element.element, a));
-  return is_inside(block.type, own, x);
+  const std::optional<Eigen::Vector3d> xi = inverse_map(block.type, own, x);
+  if (!xi) return std::nullopt;
+  return ElementPlace{element, *xi, depth(block.type, *xi)};
+}
+
+bool ElementLocator::holds(const ElementReference& element, const Eigen::Vector3d& x) const {
+  const std::optional<ElementPlace> place = place_in(element, x);
+  return place && place->depth > margin;
+}
+
+std::optional<ElementPlace> ElementLocator::deepest(const Eigen::Vector3d& x) const {
+  constexpr double beside = 0.5;  // of the size of an element: how far its box is looked at
+  std::optional<ElementPlace> best;
+  const Eigen::Vector3d pad = beside * cell_;
+  const Cells cells = cells_of({x - pad, x + pad});
+  std::vector<std::uint32_t> near;
+  for (Eigen::Index k = cells.first[2]; k <= cells.last[2]; ++k) {
+    for (Eigen::Index j = cells.first[1]; j <= cells.last[1]; ++j) {
+      for (Eigen::Index i = cells.first[0]; i <= cells.last[0]; ++i) {
+        const std::size_t cell = number(i, j, k);
+        near.insert(near.end(), members_.begin() + static_cast<std::ptrdiff_t>(first_[cell]),
+                    members_.begin() + static_cast<std::ptrdiff_t>(first_[cell + 1]));
+      }
+    }
+  }
+  std::ranges::sort(near);
+  near.erase(std::unique(near.begin(), near.end()), near.end());
+  for (const std::uint32_t e : near) {
+    const Box& box = boxes_[e];
+    const Eigen::Array3d own = beside * (box.upper - box.lower).array();
+    if ((x.array() < box.lower.array() - own).any()) continue;
+    if ((x.array() > box.upper.array() + own).any()) continue;
+    const std::optional<ElementPlace> place = place_in(list_[e], x);
+    if (place && (!best || place->depth > best->depth)) best = place;
+  }
+  return best;
 }
 
 std::optional<ElementReference> ElementLocator::holder(const Eigen::Vector3d& x,

@@ -18,6 +18,13 @@ struct ElementReference {
   [[nodiscard]] bool operator==(const ElementReference&) const = default;
 };
 
+/// A point in an element, or beside it.
+struct ElementPlace {
+  ElementReference element;
+  Eigen::Vector3d xi;  ///< on the reference element
+  double depth = 0.0;  ///< inside it, in shares of it; negative outside
+};
+
 class ElementLocator {
  public:
   /// Both must outlive it. @param nodes  [m], n × 3.
@@ -27,6 +34,8 @@ class ElementLocator {
   [[nodiscard]] std::optional<ElementReference> holder(const Eigen::Vector3d& x,
                                                        const ElementReference& own) const;
   [[nodiscard]] bool holds(const ElementReference& element, const Eigen::Vector3d& x) const;
+  /// In the element that x is deepest inside of, or least outside. Empty: none is near.
+  [[nodiscard]] std::optional<ElementPlace> deepest(const Eigen::Vector3d& x) const;
 
  private:
   struct Box {
@@ -38,6 +47,8 @@ class ElementLocator {
     std::array<Eigen::Index, 3> last;
   };
 
+  [[nodiscard]] std::optional<ElementPlace> place_in(const ElementReference& element,
+                                                     const Eigen::Vector3d& x) const;
   void choose_grid();
   void fill();
   [[nodiscard]] Box box_of(const ElementReference& element) const;

@@ -3,31 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <numbers>
 
 #include <fmt/format.h>
 
+#include "pipelines/structure/extrapolated_modes.hpp"
 #include "pipelines/system/scene_error.hpp"
-#include "pipelines/system/temporary_folder.hpp"
 
 namespace microslip::pipelines {
 namespace {
-
-/// @param n_modes  however far they reach.
-SolvedStructure with_element_size(const SceneDescription& scene, double factor, int n_modes) {
-  const TemporaryFolder folder;
-  SceneDescription coarser = with_elements_scaled(scene, factor);
-  coarser.settings.basis.n_modes = n_modes;
-  coarser.settings.basis.reach = 0.0;
-  return solved_structure(coarser, folder.path() / "mesh.msh");
-}
-
-/// 2^p, see above.
-double observed_ratio(double fine, double coarse, double coarsest) {
-  constexpr double lowest = 2.0;
-  constexpr double highest = 16.0;
-  const double ratio = (coarsest - coarse) / (coarse - fine);
-  return std::isfinite(ratio) ? std::clamp(ratio, lowest, highest) : lowest;
-}
 
 /// Modes of two meshes have the same shapes but for their signs:
 /// those that the contact and the output feel.
@@ -49,24 +33,37 @@ Eigen::MatrixXd same_signs(const ReducedModel& from, const ReducedModel& to) {
   return embedding;
 }
 
+/// What is left after extrapolation falls at least half an order faster.
+double extrapolated_ratio(double ratio) { return std::numbers::sqrt2 * ratio; }
+
+/// @param ratio  of errors, from the coarser mesh to the one at hand.
+std::optional<RicherModel> coarser_model(const ReducedModel& model, const SceneDescription& scene,
+                                         const SolvedStructure& structure, double ratio) {
+  std::vector<std::string> warnings;
+  RicherModel coarser{"mesh", model_of(scene, &structure, warnings)};
+  coarser.model.effects = model.effects;
+  if (coarser.model.frequency.size() != model.frequency.size()) return std::nullopt;
+  coarser.embedding = same_signs(model, coarser.model);
+  coarser.share = -1.0 / (ratio - 1.0);
+  return coarser;
+}
+
 }  // namespace
 
 std::optional<RicherModel> coarser_mesh(const ReducedModel& model, const SceneDescription& scene,
-                                        std::string& note) {
+                                        const SolvedStructure& structure, std::string& note) {
   if (!element_size_of(scene)) return std::nullopt;
-  std::vector<std::string> warnings;
   try {
-    const auto n_modes = static_cast<int>(model.frequency.size() - model.n_attachment);
-    const SolvedStructure twice = with_element_size(scene, 2.0, n_modes);
-    const SolvedStructure four_times = with_element_size(scene, 4.0, scene.settings.basis.n_modes);
-    RicherModel coarser{"mesh", model_of(scene, &twice, warnings)};
-    coarser.model.effects = model.effects;
-    if (coarser.model.frequency.size() != model.frequency.size()) return std::nullopt;
-    coarser.embedding = same_signs(model, coarser.model);
-    const double ratio = observed_ratio(model.frequency[0], twice.modes.basis.frequency[0],
-                                        four_times.modes.basis.frequency[0]);
-    coarser.share = -1.0 / (ratio - 1.0);
-    return coarser;
+    if (structure.coarser) {
+      return coarser_model(model, scene, structure.coarser->twice,
+                           extrapolated_ratio(structure.coarser->ratio));
+    }
+    const SolvedStructure twice =
+        on_larger_elements(scene, 2.0, model.frequency.size() - model.n_attachment);
+    const SolvedStructure four_times = on_larger_elements(scene, 4.0, scene.settings.basis.n_modes);
+    return coarser_model(model, scene, twice,
+                         observed_ratio(model.frequency[0], twice.modes.basis.frequency[0],
+                                        four_times.modes.basis.frequency[0]));
   } catch (const InterruptedError&) {
     throw;
   } catch (const std::exception& error) {  // an estimate that fails does not cost the run

@@ -152,6 +152,10 @@ double change_without(double by_having) {
   return std::abs(1.0 / (1.0 + by_having) - 1.0);
 }
 
+/// A tolerance is one of peaks: what moves a flank by a little more, of the highest peak, is told
+/// (tell_along), and is not worth curves that take ten times as long.
+constexpr double beside_peaks = 2.0;
+
 /// The largest of a source that is beyond the tolerance.
 std::optional<double> missed_change(const std::vector<ErrorRow>& rows, std::string_view source,
                                     double tolerance) {
@@ -159,7 +163,8 @@ std::optional<double> missed_change(const std::vector<ErrorRow>& rows, std::stri
   for (const ErrorRow& row : rows) {
     const bool there = row.source == source && row.goal == amplitude_there_goal;
     const bool told = tells_change(row, source) || tells_without_peak(row, source) || there;
-    if (!told || !(std::abs(row.effect) > tolerance)) continue;
+    const double limit = there ? beside_peaks * tolerance : tolerance;
+    if (!told || !(std::abs(row.effect) > limit)) continue;
     largest = std::max(change_without(row.effect), largest.value_or(0.0));
   }
   return largest;

@@ -99,7 +99,7 @@ RicherModel built(const Names& names, const ReducedModel& model, const SceneDesc
   std::vector<std::string> warnings;  // those of the scene itself are told already
   RicherModel other;
   if (structure != nullptr && changes_modes) {
-    const SolvedStructure solved{structure->mesh, solve_structure(structure->mesh, with)};
+    const SolvedStructure solved = solved_on(structure->mesh, with);
     other.model = model_of(with, &solved, warnings);
     other.embedding = between(structure->modes.basis, solved.modes.basis);
   } else {

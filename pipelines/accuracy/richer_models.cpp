@@ -127,7 +127,7 @@ RicherModels richer_models(const ReducedModel& model, const SceneDescription& sc
       result.models.push_back(std::move(*both));
     }
   }
-  if (asked("mesh")) keep("mesh", coarser_mesh(model, scene, result.note));
+  if (asked("mesh")) keep("mesh", coarser_mesh(model, scene, *structure, result.note));
   return result;
 }
 

@@ -232,6 +232,7 @@ struct AccuracyRequest {
   bool error_budget = true;  ///< each choice of the discretisation is refined at the peaks
   double tolerance = 0.0;    ///< of the peaks, relative; 0: settings as written
   double budget = std::numeric_limits<double>::infinity();  ///< wall time of a run [s]
+  bool extrapolation = true;  ///< of modes to elements of no size, where a tolerance is asked for
 };
 
 struct SceneDescription {

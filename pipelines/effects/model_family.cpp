@@ -35,14 +35,6 @@ bool changes_structure(std::string_view key) {
 
 }  // namespace
 
-SolvedStructure solved_structure(const SceneDescription& scene,
-                                 const std::filesystem::path& mesh_file) {
-  mesh::Mesh mesh = obtain_mesh(scene, mesh_file);
-  check_names(mesh, scene);
-  StructureModes modes = solve_structure(mesh, scene);
-  return {std::move(mesh), std::move(modes)};
-}
-
 ReducedModel model_on_basis(const SceneDescription& scene, const SolvedStructure& structure,
                             const fem::ModalBasis& basis, std::vector<std::string>& warnings) {
   ReducedModel model =
@@ -74,7 +66,7 @@ ReducedModel model_with(const Discretisation& settings, const SceneDescription& 
   if (settings.basis == scene.settings.basis) return model_of(other, structure, warnings);
   if (structure == nullptr)
     throw std::invalid_argument("settings with another basis of given modes");
-  const SolvedStructure solved{structure->mesh, solve_structure(structure->mesh, other)};
+  const SolvedStructure solved = solved_on(structure->mesh, other);
   return model_of(other, &solved, warnings);
 }
 

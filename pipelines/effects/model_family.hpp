@@ -12,20 +12,9 @@
 #include "mesh/mesh.hpp"
 #include "pipelines/description/scene_description.hpp"
 #include "pipelines/model/reduced_model.hpp"
-#include "pipelines/structure/structure_stage.hpp"
+#include "pipelines/structure/solved_structure.hpp"
 
 namespace microslip::pipelines {
-
-/// The finite-element half of a scene, kept so that other contact data need no new modes.
-struct SolvedStructure {
-  mesh::Mesh mesh;
-  StructureModes modes;
-};
-
-/// Mesh and modes from the beginning. @param mesh_file  where the mesher writes.
-/// @throws as obtain_mesh(), check_names(), solve_structure().
-[[nodiscard]] SolvedStructure solved_structure(const SceneDescription& scene,
-                                               const std::filesystem::path& mesh_file);
 
 /// Modes, contact and preload at rest, effects not decided.
 /// @param basis     of the structure, its own or a richer one.

@@ -13,6 +13,7 @@
 #include "pipelines/model/scene_warnings.hpp"
 #include "pipelines/run/questions.hpp"
 #include "pipelines/run/stage_seconds.hpp"
+#include "pipelines/structure/extrapolated_modes.hpp"
 #include "pipelines/structure/memory_before_mesh.hpp"
 #include "pipelines/structure/solver_time.hpp"
 #include "pipelines/structure/static_preload.hpp"
@@ -62,9 +63,11 @@ StructurePointer solved_structure(const SceneDescription& scene, RunRecord& reco
   if (!scene.modes.residual_note.empty()) record.progress().info(scene.modes.residual_note);
   record.keep_modes(mesh, *modes,
                     damping_ratios(scene.modes, modes->basis.frequency, modes->basis.n_attachment));
+  SolvedStructure structure{std::move(mesh), std::move(*modes)};
+  extrapolate_modes(structure, scene);
+  if (structure.coarser) record.progress().info(structure.coarser->text);
   record.stage("contact");
-  return std::make_shared<const SolvedStructure>(
-      SolvedStructure{std::move(mesh), std::move(*modes)});
+  return std::make_shared<const SolvedStructure>(std::move(structure));
 }
 
 ReducedModel reduced_model(const SceneDescription& scene, const StructurePointer& structure,

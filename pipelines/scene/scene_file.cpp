@@ -286,11 +286,12 @@ void read_lean_scene(Reading& reading, const std::string& kind, SceneDescription
 ///                         which may be the smaller one.
 AccuracyRequest read_accuracy(const SectionReader& s, bool closer_is_asked,
                               SceneDescription& scene) {
-  constexpr std::array<std::string_view, 2> budgets{"auto", "off"};
+  constexpr std::array<std::string_view, 2> choices{"auto", "off"};
   AccuracyRequest accuracy;
-  accuracy.error_budget = s.word("error_budget", budgets) == "auto";
+  accuracy.error_budget = s.word("error_budget", choices) == "auto";
   accuracy.tolerance = s.number_or_off("tolerance").value_or(0.0);
   accuracy.budget = s.number_or_off("budget").value_or(accuracy.budget);
+  accuracy.extrapolation = s.word("extrapolation", choices) == "auto";
   if (accuracy.tolerance == 0.0) return accuracy;
   if (!accuracy.error_budget) {
     s.fail("tolerance",

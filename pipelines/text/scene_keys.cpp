@@ -553,6 +553,9 @@ constexpr std::array accuracy_keys{
             "wall time of a run, e.g. \"60 s\"; then it ends with the best it has"},
     KeySpec{"error_budget", text, "", "\"auto\"", 0, 0, false,
             "what mesh, basis, cells, fit, harmonics … do to every peak: auto or off"},
+    KeySpec{"extrapolation", text, "", "\"auto\"", 0, 0, false,
+            "where a tolerance is asked for and the geometry is meshed here: modes extrapolated to "
+            "elements of no size from meshes twice and four times as coarse: auto or off"},
 };
 
 constexpr std::array<KeySpec, 0> named_by_the_user{};

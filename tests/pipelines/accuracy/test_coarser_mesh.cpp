@@ -29,7 +29,7 @@ TEST(CoarserMesh, HasAsManyModesAsTheModel) {
   std::vector<std::string> warnings;
   const ReducedModel model = model_of(scene, &structure, warnings);
   std::string note;
-  const auto coarser = coarser_mesh(model, scene, note);
+  const auto coarser = coarser_mesh(model, scene, structure, note);
   ASSERT_TRUE(coarser) << note;
   EXPECT_EQ(coarser->model.frequency.size(), model.frequency.size());
   EXPECT_EQ(coarser->model.n_attachment, model.n_attachment);

@@ -1,0 +1,45 @@
+/// @file
+/// Modes without most of the error of their mesh. Where edges are re-entrant, ω² errs in proportion
+/// to the size h of the elements, whatever their order: halving it halves the error and costs ten
+/// times as much. What meshes of 2h and 4h tell of it costs an eighth:
+///
+///   x = x_h + (x_h − x_2h) / (2^p − 1),    2^p = (ω_4h − ω_2h) / (ω_2h − ω_h)
+///
+/// for ω² and the shape of every mode that the mesh of 2h has as well. 2^p is that of the first
+/// frequency, between 2 (re-entrant edges) and 16 (smooth fields, quadratic elements).
+///
+/// Source: Richardson, The deferred approach to the limit, Phil. Trans. R. Soc. A 226 (1927)
+/// 299–361.
+#pragma once
+
+#include <string>
+
+#include "pipelines/description/scene_description.hpp"
+#include "pipelines/structure/solved_structure.hpp"
+
+namespace microslip::pipelines {
+
+struct CoarserMeshes {
+  SolvedStructure twice;  ///< of 2h, extrapolated likewise from 4h
+  double ratio = 2.0;     ///< 2^p
+  std::string text;       ///< for the log
+};
+
+/// Where an accuracy is asked for and the geometry is meshed here, unless
+/// `accuracy.extrapolation` is off.
+[[nodiscard]] bool is_extrapolated(const SceneDescription& scene);
+
+/// @param n_modes  however far they reach.
+[[nodiscard]] SolvedStructure on_larger_elements(const SceneDescription& scene, double factor,
+                                                 Eigen::Index n_modes);
+
+/// 2^p of three meshes, as above.
+[[nodiscard]] double observed_ratio(double fine, double coarse, double coarsest);
+
+/// Extrapolates the modes of a structure and keeps what they are extrapolated from.
+/// Leaves them where the scene does not ask for it, the coarser meshes cannot be solved, or their
+/// first frequencies do not fall towards that of the fine one.
+/// @param structure  mesh and modes of the scene.
+void extrapolate_modes(SolvedStructure& structure, const SceneDescription& scene);
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,31 @@
+/// @file
+/// The finite-element half of a scene, kept so that other contact data need no new modes.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "mesh/mesh.hpp"
+#include "pipelines/description/scene_description.hpp"
+#include "pipelines/structure/structure_stage.hpp"
+
+namespace microslip::pipelines {
+
+struct CoarserMeshes;
+
+struct SolvedStructure {
+  mesh::Mesh mesh;
+  StructureModes modes;
+  /// Those that the modes are extrapolated from (extrapolated_modes.hpp); nullptr: they are not.
+  std::shared_ptr<const CoarserMeshes> coarser{};
+};
+
+/// Mesh and modes from the beginning. @param mesh_file  where the mesher writes.
+/// @throws as obtain_mesh(), check_names(), solve_structure().
+[[nodiscard]] SolvedStructure solved_structure(const SceneDescription& scene,
+                                               const std::filesystem::path& mesh_file);
+
+/// The same on a mesh that is there.
+[[nodiscard]] SolvedStructure solved_on(mesh::Mesh mesh, const SceneDescription& scene);
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,89 @@
+#include "pipelines/structure/extrapolated_modes.hpp"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "pipelines/scene/scene_file.hpp"
+#include "pipelines/system/temporary_folder.hpp"
+
+namespace microslip::pipelines::test_extrapolated_modes {
+namespace {
+
+SolvedStructure blade(const std::vector<std::string>& overrides) {
+  std::vector<std::string> all{"model.element_size=\"5 mm\""};
+  all.insert(all.end(), overrides.begin(), overrides.end());
+  const SceneDescription scene = read_scene(MICROSLIP_SCENES "/blade_to_ground.toml", all);
+  const TemporaryFolder folder;
+  return solved_structure(scene, folder.path() / "mesh.msh");
+}
+
+const SolvedStructure& raw_blade() {
+  static const SolvedStructure raw = blade({});
+  return raw;
+}
+
+const SolvedStructure& extrapolated_blade() {
+  static const SolvedStructure extrapolated = blade({"accuracy.tolerance=0.02"});
+  return extrapolated;
+}
+
+double in_hz(const SolvedStructure& structure, Eigen::Index mode) {
+  return structure.modes.basis.frequency[mode] / (2.0 * std::numbers::pi);
+}
+
+// Known from 412 650 and 69 003 unknowns (elements of 1.5 and 3 mm), the first to 0.1 Hz.
+TEST(ExtrapolatedModes, LackMostOfTheErrorOfTheMesh) {
+  const SolvedStructure& raw = raw_blade();
+  const SolvedStructure& extrapolated = extrapolated_blade();
+  EXPECT_FALSE(raw.coarser);
+  ASSERT_TRUE(extrapolated.coarser);
+  constexpr std::array known{293.2, 954.5, 1803.4};  // [Hz]
+  for (Eigen::Index mode = 0; mode < 3; ++mode) {
+    const double limit = known[static_cast<std::size_t>(mode)];
+    const double error = std::abs(in_hz(extrapolated, mode) - limit);
+    EXPECT_LT(error, 0.4 * std::abs(in_hz(raw, mode) - limit)) << mode;
+  }
+}
+
+// A shape is scaled by its mass: that of a structure which answers as the limit does.
+TEST(ExtrapolatedModes, KeepTheirShapes) {
+  const SolvedStructure& raw = raw_blade();
+  const SolvedStructure& extrapolated = extrapolated_blade();
+  ASSERT_EQ(raw.modes.basis.shapes.cols(), extrapolated.modes.basis.shapes.cols());
+  for (Eigen::Index mode = 0; mode < 3; ++mode) {
+    const Eigen::VectorXd before = raw.modes.basis.shapes.col(mode);
+    const Eigen::VectorXd after = extrapolated.modes.basis.shapes.col(mode);
+    EXPECT_LT((after - before).norm(), 0.1 * before.norm()) << mode;
+    EXPECT_GT((after - before).norm(), 0.0) << mode;
+  }
+}
+
+TEST(ExtrapolatedModes, AreLeftWhereTheSceneSaysSo) {
+  const auto asks = [](const std::vector<std::string>& overrides) {
+    return is_extrapolated(read_scene(MICROSLIP_SCENES "/blade_to_ground.toml", overrides));
+  };
+  EXPECT_TRUE(asks({"accuracy.tolerance=0.02"}));
+  EXPECT_FALSE(asks({}));
+  EXPECT_FALSE(asks({"accuracy.tolerance=0.02", "accuracy.extrapolation=off"}));
+}
+
+// The first frequencies of such elements say nothing of their limit.
+TEST(ExtrapolatedModes, AreLeftWhereCoarserMeshesDoNotConverge) {
+  const SolvedStructure coarse = blade({"accuracy.tolerance=0.02", "model.element_size=\"30 mm\""});
+  EXPECT_FALSE(coarse.coarser);
+}
+
+TEST(ExtrapolatedModes, RatesAreThoseOfCornersToSmoothFields) {
+  EXPECT_DOUBLE_EQ(observed_ratio(1.0, 2.0, 5.0), 3.0);
+  EXPECT_DOUBLE_EQ(observed_ratio(1.0, 2.0, 100.0), 16.0);
+  EXPECT_DOUBLE_EQ(observed_ratio(1.0, 2.0, 2.5), 2.0);
+  EXPECT_DOUBLE_EQ(observed_ratio(1.0, 1.0, 1.0), 2.0);
+}
+
+}  // namespace
+}  // namespace microslip::pipelines::test_extrapolated_modes
