@@ -182,6 +182,7 @@ void BranchWalker::remember(Remedy remedy) {
 }
 
 bool BranchWalker::advance() {
+  kink_.reset();
   bool failed = false;
   int modest = residual_ ? modest_attempts : 0;
   while (step_ >= shortest_step) {
@@ -226,20 +227,35 @@ bool BranchWalker::turn_at_kink() {
   // Where slip begins a branch may turn back sharply: no solution lies ahead in the old direction.
   // Just beyond the kink the Jacobian is that of the other regime; its null vector, with the sign
   // that keeps the orientation of the branch, points out of the kink (Allgower & Georg 1990,
-  // section 2.1).
-  if (orientation_ == 0.0) return false;
+  // section 2.1). Two events at once, as of a motion that changes sign after half a period, may
+  // turn that sign by what breaks the symmetry.
+  return orientation_ != 0.0 && (leave_kink(orientation_) || leave_kink(-orientation_));
+}
+
+/// Along a direction out of a kink lies a part of the branch whose tangent it is; the part that was
+/// walked has another one. @param angle  versine of that between the direction and the old tangent.
+bool BranchWalker::is_other_part(const Trial& trial, double angle) {
+  constexpr double least_angle = 1e-4;  // 0.8°: below, the Jacobian has not jumped
+  constexpr double much_less = 0.04;    // a fifth of the angle
+  return angle > least_angle && 1.0 - trial.cosine < much_less * angle;
+}
+
+/// @param orientation  beyond the kink.
+bool BranchWalker::leave_kink(double orientation) {
   for (double beyond = 1e-7; beyond < 1e-2; beyond *= 10.0) {
     const BranchVector probe = moved(now_.solution.point, now_.tangent, beyond, now_.scaling);
     const BalanceEvaluation other = system_(probe.x, probe.parameter);
     ++evaluations_;
-    const std::optional<BranchVector> way = null_vector(other, now_.scaling, orientation_);
+    const std::optional<BranchVector> way = null_vector(other, now_.scaling, orientation);
     if (!way) continue;
+    const double angle = 1.0 - std::abs(dot(*way, now_.tangent));
     for (double distance = 30.0 * beyond; distance < 2e-2; distance *= 5.0) {
       Trial trial = attempt(*way, distance, 15);
       const bool onward = trial.converged && trial.correction < 0.7 && trial.cosine > 0.5 &&
-                          trial.orientation == orientation_;
-      if (!onward) continue;
+                          trial.orientation == orientation;
+      if (!onward || (orientation != orientation_ && !is_other_part(trial, angle))) continue;
       remember(Remedy::kink_turn);
+      if (dot(*way, now_.tangent) < 0.0) kink_ = {now_.solution, *way, now_.scaling};
       step_ = distance;
       accept(std::move(trial));
       return true;

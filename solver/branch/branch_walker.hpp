@@ -64,6 +64,10 @@ class BranchWalker {
   /// @return empty: Newton's method failed from all of them.
   [[nodiscard]] std::optional<StepPoint> between(const StepPoint& a, const StepPoint& b,
                                                  double share);
+  /// Where the last step has left a kink at which the branch turns by more than a right angle:
+  /// before(), which is as near to it as the shortest step, with the tangent of the part ahead.
+  /// From its own, between() finds the part that was walked.
+  [[nodiscard]] const std::optional<WalkerPoint>& kink() const { return kink_; }
   /// Share of a step below which places on it differ by the errors of the force alone.
   [[nodiscard]] double resolution() const;
   /// Of a force that is sampled, whose Jacobian is dear.
@@ -107,6 +111,8 @@ class BranchWalker {
   void remember(Remedy remedy);
   [[nodiscard]] bool leap();
   [[nodiscard]] bool turn_at_kink();
+  [[nodiscard]] bool leave_kink(double orientation);
+  [[nodiscard]] static bool is_other_part(const Trial& trial, double angle);
   [[nodiscard]] std::optional<WalkerPoint> corrected(const BranchVector& start,
                                                      const BranchVector& chord,
                                                      const WalkerPoint& nearby);
@@ -123,6 +129,7 @@ class BranchWalker {
   double step_ = 0.05;
   double orientation_ = 0.0;  ///< 0: not known yet
   double before_orientation_ = 0.0;
+  std::optional<WalkerPoint> kink_;  ///< of the last step
   StepStates states_;
   std::vector<StepRemedy> remedies_;
   long evaluations_ = 0;

@@ -93,7 +93,14 @@ class Segment {
         slight_turn_(walker.is_sampled() ? slight_turn_of_sampled : slight_turn) {}
 
   [[nodiscard]] std::vector<SpecialPoint> search() {
-    search(node({0.0, walker_.before()}), node({1.0, walker_.now()}), 0);
+    Node begin = node({0.0, walker_.before()});
+    if (walker_.kink()) {
+      Node ahead = node({0.0, *walker_.kink()});
+      const bool turns = (begin.value.slope > 0.0) != (ahead.value.slope > 0.0);
+      if (turns && wanted(begin)) found_.push_back({0.0, begin.at.point.solution, kind_, true});
+      begin = std::move(ahead);
+    }
+    search(begin, node({1.0, walker_.now()}), 0);
     return std::move(found_);
   }
 

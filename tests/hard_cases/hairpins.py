@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Contacts a million times stiffer than the modes, next to no damping: hairpins of the branch within 1e-4 Hz, and a kink at which
-both frequency and amplitude turn.
+"""Contacts a million times stiffer than the modes, next to no damping: hairpins of the branch within 0.03 Hz, a kink at which
+both frequency and amplitude turn, and one at which the amplitude alone does, by nearly 180 degrees.
 
-Hard: a fold may be lost between two points, or behind a peak at the same place.
+Hard: a fold may be lost between two points, or behind a peak at the same place; from a kink the part that was walked is as near
+as the part ahead, and a row on it looks like two more folds.
 From: three modes, two points, damping 8e-6, tangential stiffness 1e10 (hard case 69).
 Right: complete from end to end; a branch that does so turns back as often as it turns forth, so that the number of its folds is
-even; there are as many folds as turns, within two rows of each.
+even; there are as many folds as turns, within two rows of each, and no row lies on a part walked before or after.
 
 usage: hairpins.py MICROSLIP WORK_FOLDER
 """
@@ -15,6 +16,8 @@ import os
 import shutil
 import subprocess
 import sys
+
+import numpy as np
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "verification"))
 from program_run import without_plots
@@ -73,6 +76,23 @@ def turns(frequency):
     return places
 
 
+def on_another_part(states):
+    """Rows whose motion is that of a part two rows away or more, between two of its rows, at the same frequency: closer than a
+    hundredth of the way along the branch to there."""
+    frequency, q = states[:, 0], states[:, 1:]
+    found = []
+    for i, here in enumerate(frequency):
+        for j in range(len(frequency) - 1):
+            if i - 2 <= j <= i + 1 or (frequency[j] - here) * (frequency[j + 1] - here) >= 0.0:
+                continue
+            share = (here - frequency[j]) / (frequency[j + 1] - frequency[j])
+            apart = np.linalg.norm(q[j] + share * (q[j + 1] - q[j]) - q[i])
+            way = np.linalg.norm(q[min(i, j):max(i, j) + 2] - q[i], axis=1).max()
+            if apart < 0.01 * way:
+                found.append((i, j))
+    return found
+
+
 def main(program, folder):
     shutil.rmtree(folder, ignore_errors=True)
     os.makedirs(folder)
@@ -84,11 +104,13 @@ def main(program, folder):
         curve, = json.load(file)["curves"]
     with open(os.path.join(run, "curves", "scale_1.csv"), newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
+    states = np.loadtxt(os.path.join(run, "curves", "scale_1.states.csv"), delimiter=",", skiprows=1)
     folds = [i for i, row in enumerate(rows) if row["mark"] == "fold"]
     places = turns([float(row["frequency_Hz"]) for row in rows])
     print(f"{len(rows)} points, {len(folds)} folds, {len(places)} turns")
     assert curve["complete"], curve["message"]
-    assert len(places) >= 8 and len(folds) == len(places), (folds, places)
+    assert not on_another_part(states), on_another_part(states)
+    assert len(places) >= 6 and len(folds) == len(places), (folds, places)
     assert len(folds) % 2 == 0, folds
     for row, _ in places:
         assert any(abs(fold - row) <= 2 for fold in folds), (row, folds)

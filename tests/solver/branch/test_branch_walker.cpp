@@ -104,5 +104,59 @@ TEST(BranchWalker, ABranchPointIsNoTipWhereTheBranchBends) {
   EXPECT_EQ(n_bends, 25);
 }
 
+/// p = m u up to the origin and p = −n u beyond it, with v = 0: a motion u that changes sign after
+/// half a period meets two events at once. By each alone the determinant would keep its sign; both
+/// change that of what breaks the symmetry, v, too.
+struct TwinKink {
+  double before = 0.0;  ///< m
+  double after = 0.0;   ///< n
+
+  [[nodiscard]] ParametricSystem system() const {
+    return [*this](const Eigen::VectorXd& x, double p) {
+      const double u = x[0];
+      const double v = x[1];
+      const double slope = u < 0.0 ? before : -after;
+      const double plus = u + v < 0.0 ? -1.0 : 1.0;
+      const double minus = u - v < 0.0 ? -1.0 : 1.0;
+      BalanceEvaluation at;
+      at.residual = Eigen::Vector2d(p - slope * u, 0.5 * (minus * (u - v) - plus * (u + v)));
+      at.jacobian = Eigen::MatrixXd{{-slope, 0.0}, {0.5 * (minus - plus), -0.5 * (minus + plus)}};
+      at.parameter_derivative = Eigen::Vector2d(1.0, 0.0);
+      at.contact_force = Eigen::Vector2d::Zero();
+      return at;
+    };
+  }
+};
+
+TEST(BranchWalker, TwoEventsAtOnceMayTurnTheDeterminantWithTheBranch) {
+  constexpr double first = -0.3;  // of u
+  int n_kinks = 0;
+  for (const auto& [before, after] :
+       {std::pair{3.0, 1.5}, {1.2, 5.0}, {0.9, 2.0}, {4.0, 0.6}, {1.2, 1.0}, {9.0, 11.0}}) {
+    for (const double share : {1.0, 1.03, 1.07, 1.11, 1.17}) {
+      const TwinKink kink{before, after};
+      const Scaling unit;
+      const double u = share * first;
+      NewtonResult start = evaluated_at(kink.system(), {Eigen::Vector2d(u, 0.0), before * u}, unit);
+      start.converged = true;
+      BranchWalker walker(
+          kink.system(), [=](const NewtonResult&) { return unit; }, std::move(start), 1.0);
+      int n_turns = 0;
+      for (int i = 0; i < 300 && x_of(walker) < 0.3 && x_of(walker) >= u; ++i) {
+        ASSERT_TRUE(walker.advance()) << before << ' ' << after << ' ' << share;
+        if (!walker.kink()) continue;
+        ++n_turns;
+        EXPECT_LT(walker.kink()->solution.point.x.norm(), 1e-6);
+        EXPECT_NEAR(walker.kink()->tangent.parameter, -after * walker.kink()->tangent.x[0], 1e-9);
+      }
+      EXPECT_GE(x_of(walker), 0.3) << before << ' ' << after << ' ' << share;
+      EXPECT_NEAR(parameter_of(walker), -after * x_of(walker), 1e-9);
+      EXPECT_EQ(n_turns, 1);
+      ++n_kinks;
+    }
+  }
+  EXPECT_EQ(n_kinks, 30);
+}
+
 }  // namespace
 }  // namespace microslip::solver::test_branch_walker
