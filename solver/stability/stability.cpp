@@ -312,9 +312,13 @@ StabilityReport hill_stability(const HarmonicBalance& balance, const Harmonics& 
   const auto pairs = contact::general_pairs(matrix);
   if (!pairs) return report;
   const Eigen::MatrixXcd vectors = pairs->vectors.topRows(low.jacobian.rows());
+  // Exponents midway between two harmonics are conjugate pairs of copies of one another, centred as
+  // far on either side: those on one side are taken, each once.
+  // Others are best known, by as many harmonics above as below, as the pair nearest to harmonic 0.
+  constexpr double aside = 0.01;
   std::vector<std::pair<double, Eigen::Index>> centres;
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    centres.emplace_back(std::abs(centre_of(vectors.col(i), low)), i);
+    centres.emplace_back(std::abs(centre_of(vectors.col(i), low) - aside), i);
   }
   std::sort(centres.begin(), centres.end());
   double real_growth = -std::numeric_limits<double>::infinity();

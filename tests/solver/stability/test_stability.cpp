@@ -1,17 +1,21 @@
 #include "solver/stability/stability.hpp"
 
+#include <cmath>
 #include <memory>
 #include <numbers>
 #include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <Eigen/Eigenvalues>
 
+#include "contact/numerics/trigonometric_basis.hpp"
 #include "contact/transient/patch_transient.hpp"
 #include "contact/transient/planar_transient.hpp"
 #include "solver/balance/linear_force.hpp"
 #include "solver/continuation.hpp"
 #include "tests/solver/duffing.hpp"
+#include "tests/support/full_force.hpp"
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
 
@@ -198,6 +202,92 @@ TEST(Stability, NegativeDampingIsUnstable) {
   const auto curve = solve_at_frequency(linear.scene(), 0.9, {});
   ASSERT_TRUE(curve.complete);
   EXPECT_EQ(curve.points[0].stability, Stability::unstable);
+}
+
+/// α q³ on any harmonics, by samples; exact for those kept.
+class SampledCubicSpring final : public tests::FullForce {
+ public:
+  explicit SampledCubicSpring(double alpha) : FullForce(1), alpha_(alpha) {}
+  [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override {
+    return Eigen::MatrixXd::Zero(1, 1);
+  }
+  [[nodiscard]] contact::CycleReport report(const contact::Harmonics& /*q*/, double /*frequency*/,
+                                            Workspace& /*work*/) const override {
+    return {};
+  }
+  [[nodiscard]] contact::ForceAndJacobian by_all(const contact::Harmonics& q,
+                                                 double /*frequency*/) const override {
+    constexpr int n_samples = 128;
+    const Eigen::Index size = q.vector().size();
+    contact::ForceAndJacobian result;
+    result.force = contact::Harmonics(q.n_harmonics(), 1);
+    result.jacobian = Eigen::MatrixXd::Zero(size, size);
+    result.frequency_derivative = Eigen::VectorXd::Zero(size);
+    Eigen::VectorXd basis(size);
+    for (int i = 0; i < n_samples; ++i) {
+      contact::trigonometric_basis(q.n_harmonics(), 2.0 * std::numbers::pi * i / n_samples, basis);
+      const double x = basis.dot(q.vector());
+      Eigen::VectorXd projection = basis * (2.0 / n_samples);
+      projection[0] *= 0.5;
+      result.force.vector() += alpha_ * x * x * x * projection;
+      result.jacobian += 3.0 * alpha_ * x * x * projection * basis.transpose();
+    }
+    return result;
+  }
+
+ private:
+  double alpha_;
+};
+
+/// Largest growth [rad/s] of perturbations of a motion of one mode on a cubic spring: δ̈ + 2ζδ̇ +
+/// (1 + 3αq²)δ = 0 over a period by Runge and Kutta's method.
+double growth_in_time(const tests::Duffing& duffing, const ResponsePoint& at) {
+  constexpr int n_steps = 4000;
+  const double period = 2.0 * std::numbers::pi / at.frequency;
+  const double h = period / n_steps;
+  Eigen::VectorXd basis(at.q.vector().size());
+  const auto rate = [&](double time, const Eigen::Matrix2d& y) {
+    contact::trigonometric_basis(at.q.n_harmonics(), at.frequency * time, basis);
+    const double q = basis.dot(at.q.vector());
+    const Eigen::Matrix2d a{{0.0, 1.0}, {-1.0 - 3.0 * duffing.alpha * q * q, -2.0 * duffing.zeta}};
+    return Eigen::Matrix2d(a * y);
+  };
+  Eigen::Matrix2d y = Eigen::Matrix2d::Identity();
+  for (int i = 0; i < n_steps; ++i) {
+    const Eigen::Matrix2d k1 = rate(i * h, y);
+    const Eigen::Matrix2d k2 = rate((i + 0.5) * h, y + 0.5 * h * k1);
+    const Eigen::Matrix2d k3 = rate((i + 0.5) * h, y + 0.5 * h * k2);
+    const Eigen::Matrix2d k4 = rate((i + 1) * h, y + h * k3);
+    y += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+  }
+  return std::log(y.eigenvalues().cwiseAbs().maxCoeff()) / period;
+}
+
+TEST(Stability, OfAnOddMotionEachExponentIsTakenOnce) {
+  // Beside its folds both exponents are real; shifted by the frequency to even perturbations each
+  // stands there twice, as a conjugate pair.
+  const tests::Duffing duffing;
+  Scene scene = duffing.scene();
+  scene.contact = std::make_unique<SampledCubicSpring>(duffing.alpha);
+  ContinuationOptions options;
+  options.frequency_begin = 0.7;
+  options.frequency_end = 2.5;
+  options.n_harmonics = 11;
+  options.orders = {1, 3, 5, 7, 9, 11};
+  options.without_mean = true;
+  const ResponseCurve curve = trace_response(scene, options);
+  ASSERT_TRUE(curve.complete) << curve.message;
+  HarmonicBalance balance(scene, HarmonicSet(options.orders, HarmonicSet::Mean::left_out));
+  int n_beside = 0;
+  for (const ResponsePoint& point : curve.points) {
+    if (point.mark == PointMark::fold) continue;
+    const auto at = balance.evaluate(balance.unknowns(point.q), point.frequency);
+    const StabilityReport report = assess_stability(balance, at.jacobian, point.q, point.frequency);
+    const double growth = growth_in_time(duffing, point);
+    EXPECT_NEAR(report.growth, growth, 1e-4) << point.frequency << ' ' << point.amplitude;
+    n_beside += std::abs(growth + duffing.zeta) > 1e-3 ? 1 : 0;
+  }
+  EXPECT_GE(n_beside, 10);
 }
 
 }  // namespace
