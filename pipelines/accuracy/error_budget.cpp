@@ -70,8 +70,7 @@ void add_model(CurveBudget& budget, const ReducedModel& model, const SceneDescri
   const ReducedModel solved = model_of(model, result.curve);
   ReducedModel refined = richer.model;
   refined.effects.located = refined.effects.located || solved.effects.located;
-  solver::ContinuationOptions options = continuation_options(scene, solved);
-  options.search_starts = 0;
+  const solver::ContinuationOptions options = options_of_both(scene, solved, refined);
   const solver::Scene own = solver_scene(solved, load);
   const solver::Scene other = solver_scene(refined, load);
   const double factor = frequency_factor(model, richer.model, highest_peak(result.curve)->frequency,

@@ -238,17 +238,6 @@ Changes changes_of(const Comparison& of) {
   return {{peak_amplitude_goal, height}, {peak_frequency_goal, place}};
 }
 
-/// As exact as the forces of both allow.
-solver::ContinuationOptions options_of_both(const SceneDescription& scene,
-                                            const ReducedModel& model, const ReducedModel& richer) {
-  const bool sampled = contact::is_sampled(richer.patches, richer.effects);
-  solver::ContinuationOptions options = continuation_options(scene, sampled ? richer : model);
-  const ReducedModel& other = sampled ? model : richer;
-  if (continuation_options(scene, other).orders.empty()) options.orders.clear();  // all, for both
-  options.search_starts = 0;
-  return options;
-}
-
 /// The static preload with an effect may be another one.
 double load_with(const ReducedModel& richer, const ReducedModel& model, double load) {
   return load == model.static_preload ? richer.static_preload.value_or(load) : load;

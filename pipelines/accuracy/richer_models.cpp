@@ -5,6 +5,7 @@
 
 #include "contact/contact_force.hpp"
 #include "pipelines/accuracy/coarser_mesh.hpp"
+#include "pipelines/response/response_stage.hpp"
 #include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {
@@ -94,6 +95,16 @@ double frequency_factor(const ReducedModel& model, const ReducedModel& other, do
   if (embedding.size() > 0) embedding.col(nearest).cwiseAbs().maxCoeff(&same);
   const bool usual = same < other.frequency.size() && model.frequency[nearest] > 0.0;
   return usual ? other.frequency[same] / model.frequency[nearest] : 1.0;
+}
+
+solver::ContinuationOptions options_of_both(const SceneDescription& scene,
+                                            const ReducedModel& model, const ReducedModel& richer) {
+  const bool sampled = contact::is_sampled(richer.patches, richer.effects);
+  solver::ContinuationOptions options = continuation_options(scene, sampled ? richer : model);
+  const ReducedModel& other = sampled ? model : richer;
+  if (continuation_options(scene, other).orders.empty()) options.orders.clear();  // all, for both
+  options.search_starts = 0;
+  return options;
 }
 
 RicherModels richer_models(const ReducedModel& model, const SceneDescription& scene,

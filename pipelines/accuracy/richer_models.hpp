@@ -12,6 +12,7 @@
 #include "pipelines/effects/model_family.hpp"
 #include "pipelines/model/reduced_model.hpp"
 #include "pipelines/response/error_row.hpp"
+#include "solver/continuation_options.hpp"
 
 namespace microslip::pipelines {
 
@@ -41,6 +42,12 @@ struct RicherModels {
 [[nodiscard]] RicherModels richer_models(const ReducedModel& model, const SceneDescription& scene,
                                          const SolvedStructure* structure,
                                          const std::vector<std::string>& sources = {});
+
+/// How a peak is carried from a model to a richer one: as exact as the forces of both allow, with
+/// all harmonics that either may move in, and without a search for other branches.
+[[nodiscard]] solver::ContinuationOptions options_of_both(const SceneDescription& scene,
+                                                          const ReducedModel& model,
+                                                          const ReducedModel& richer);
 
 /// Of the natural frequency nearest to a peak, the other model's over that of the model at hand.
 /// @param peak       [rad/s].

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "pipelines/description/curve_request.hpp"
 #include "pipelines/effects/model_family.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/scene/scene_file.hpp"
@@ -111,6 +112,64 @@ TEST(ErrorBudget, SaysWhereHarmonicsBeyondTheModesKeptAreNotAsked) {
   EXPECT_EQ(traced("auto", 30.0, 1).budget.unknown, modes);
   EXPECT_TRUE(traced("auto", 30.0).budget.unknown.empty()) << "no shapes: all are asked";
   EXPECT_TRUE(traced("auto", 1e5, 1).budget.unknown.empty()) << "nothing opens";
+}
+
+// Under a constant load even harmonics are no unknowns; a richer model whose load varies has them.
+constexpr const char* level_point = R"toml([model]
+kind = "modal"
+[modal]
+frequency = [20, 46, 66]
+damping_ratio = 0.01
+force_sine = [7, 0.5, 0.5]
+output = [0.75, 0.5, 0.3]
+[[modal.points]]
+weight = 1
+tangential_stiffness = 4e4
+normal_stiffness = 4e4
+friction_coefficient = 0.5
+preload = 30
+phi_u_1 = 0.5
+phi_u_2 = -0.8
+phi_u_3 = 0.4
+phi_v_1 = 0
+[response]
+frequency = [19, 28]
+harmonics = 5
+)toml";
+
+TEST(ErrorBudget, ARicherModelHasTheHarmonicsOfItsOwnMotions) {
+  std::vector<std::string> warnings;
+  const auto read = [&](const std::vector<std::string>& overrides) {
+    return parse_scene(level_point, "scene.toml", "/nowhere", overrides);
+  };
+  const SceneDescription scene = read({});
+  const SceneDescription tilted =
+      read({"modal.points[0].phi_v_1=0.25", "modal.points[0].phi_v_2=0.3"});
+  const auto with_evens = [](const SceneDescription& of, const ReducedModel& model) {
+    return continuation_options(of, model).orders.empty();
+  };
+  const auto traced_one = [](const SceneDescription& of, const ReducedModel& model) {
+    return trace_curve(model, of, curve_requests(of).at(0), [](const auto&) { return true; });
+  };
+  const ReducedModel model = model_of(scene, nullptr, warnings);
+  RicherModels richer;
+  richer.models.push_back({"basis", model_of(tilted, nullptr, warnings)});
+  ASSERT_FALSE(with_evens(scene, model));
+  ASSERT_TRUE(with_evens(tilted, richer.models[0].model));
+  const CurveResult own = traced_one(scene, model);
+  const CurveResult truth = traced_one(tilted, richer.models[0].model);
+  const solver::ResponsePoint& peak = *highest_peak(truth.curve);
+  ASSERT_GT(peak.q.sine(2).norm() + peak.q.mean().norm(), 1e-2 * peak.q.sine(1).norm());
+  const CurveBudget told = error_budget(model, scene, richer, own);
+  const double change = peak.amplitude / highest_peak(own.curve)->amplitude - 1.0;
+  bool found = false;
+  for (const ErrorRow& row : told.rows) {
+    if (row.source != "basis" || row.goal != std::string(peak_amplitude_goal)) continue;
+    found = true;
+    std::printf("told %+.6f, true %+.6f\n", row.effect, change);
+    EXPECT_NEAR(row.effect, change, 1e-4 * std::abs(change));
+  }
+  EXPECT_TRUE(found);
 }
 
 }  // namespace
