@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <utility>
 
+#include "contact/phase.hpp"
 #include "solver/balance/branch_factors.hpp"
 #include "solver/balance/first_harmonics.hpp"
 #include "solver/balance/linear_resonance.hpp"
@@ -188,9 +190,23 @@ bool CurveTracer::walk(BranchWalker& walker) {
       return false;
     }
   }
-  stop(Diagnosis::budget, "the branch did not reach the end within " +
-                              std::to_string(options_.max_points) + " points");
+  stop(Diagnosis::budget, too_many_points());
   return false;
+}
+
+/// With the place where the walk is slow.
+std::string CurveTracer::too_many_points() const {
+  const auto& points = curve_.points;
+  const auto half = points.begin() + std::ssize(points) / 2;
+  const auto [low, high] = std::minmax_element(
+      half, points.end(),
+      [](const ResponsePoint& a, const ResponsePoint& b) { return a.frequency < b.frequency; });
+  std::ostringstream stream;
+  stream.precision(8);
+  stream << "the branch did not reach the end within " << options_.max_points
+         << " points, half of which lie from " << low->frequency / contact::two_pi << " to "
+         << high->frequency / contact::two_pi << " Hz";
+  return stream.str();
 }
 
 double CurveTracer::forward() const {

@@ -63,6 +63,7 @@ class CurveTracer {
   /// What the last step has up to an end of the range, and the point there. False:
   /// diagnosis says why.
   [[nodiscard]] bool reach(BranchWalker& walker, double edge);
+  [[nodiscard]] std::string too_many_points() const;
   [[nodiscard]] static std::string at_hertz(const std::string& text, double frequency);
   void stop(Diagnosis diagnosis, const std::string& message);
   [[nodiscard]] double progress(double frequency) const;  ///< 0 at the begin, 1 at the end

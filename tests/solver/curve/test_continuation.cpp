@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <cstdio>
 #include <memory>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -281,13 +283,29 @@ TEST(Continuation, FoldsAreThoseOfTheClosedForm) {
   EXPECT_NEAR(folds[1].frequency, expected[0], 1e-12);
 }
 
-TEST(Continuation, NamesACurveThatDoesNotEnd) {
+// Hard case 70: where points pile up is told.
+TEST(Continuation, NamesACurveThatDoesNotEndAndThePlaceWhereItsPointsAre) {
   ContinuationOptions options = frequency_range(0.5, 2.5);
   options.max_points = 20;
   const auto curve = trace_response(Duffing{}.scene(), options);
   EXPECT_FALSE(curve.complete);
   EXPECT_EQ(curve.diagnosis, Diagnosis::budget);
-  EXPECT_FALSE(curve.message.empty());
+  double low = 0.0;
+  double high = 0.0;
+  ASSERT_EQ(
+      std::sscanf(curve.message.c_str(),
+                  "the branch did not reach the end within 20 points, half of which lie from %lf "
+                  "to %lf Hz",
+                  &low, &high),
+      2)
+      << curve.message;
+  const auto half = curve.points.size() / 2;
+  std::vector<double> there;
+  for (std::size_t i = half; i < curve.points.size(); ++i) {
+    there.push_back(curve.points[i].frequency / (2.0 * std::numbers::pi));
+  }
+  EXPECT_NEAR(low, *std::ranges::min_element(there), 1e-7 * low);
+  EXPECT_NEAR(high, *std::ranges::max_element(there), 1e-7 * high);
 }
 
 TEST(Continuation, ABranchThatLeavesTheRangeWhereItBeganIsWalkedFromTheOtherEnd) {
