@@ -25,19 +25,22 @@ std::string key_at_end_of(std::string_view text) {
   static const std::regex nested(R"([{,]\s*([\w.\-]+)\s*=[^={}]*$)");
   std::string section;
   std::string key;
+  std::string inner;
   std::smatch found;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
+  // Backwards, as far as to the header of the section: a line costs microseconds.
+  for (std::size_t end = text.size(); section.empty();) {
+    const std::size_t begin = end == 0 ? 0 : text.rfind('\n', end - 1) + 1;  // npos + 1 is 0
     const std::string line = searched(text.substr(begin, end - begin));
+    if (end == text.size() && std::regex_search(line, found, nested)) inner = "." + found[1].str();
     if (std::regex_search(line, found, header)) {
       section = found[1].str() + ".";
-      key.clear();
-    } else if (std::regex_search(line, found, assignment)) {
+    } else if (key.empty() && std::regex_search(line, found, assignment)) {
       key = found[1].str();
     }
-    if (end == text.size() && std::regex_search(line, found, nested)) key += "." + found[1].str();
-    begin = end + 1;
+    if (begin == 0) break;
+    end = begin - 1;
   }
+  key += inner;
   return key.empty() ? std::string() : section + key;
 }
 
@@ -127,13 +130,15 @@ std::string complaint(std::string_view text, const std::string& name,
 }  // namespace
 
 std::string description_of(const toml::parse_error& error) {
+  static const std::regex no_value("'([^']*)' could not be interpreted as a value");
+  static const std::regex too_large("'([^']*)' is not representable in 64 bits");
   const std::string text(error.description());
   std::smatch found;
-  if (std::regex_search(text, found, std::regex("'([^']*)' could not be interpreted as a value"))) {
+  if (std::regex_search(text, found, no_value)) {
     return fmt::format("{} is out of range: expected a number of at most 1.797e308 in size",
                        found[1].str());
   }
-  if (std::regex_search(text, found, std::regex("'([^']*)' is not representable in 64 bits"))) {
+  if (std::regex_search(text, found, too_large)) {
     return fmt::format(
         "{} is out of range: whole numbers end at 9.2e18; write 1e20 with a point or an e",
         found[1].str());
