@@ -20,6 +20,8 @@ constexpr double shortest_step = 1e-7;
 constexpr double kink_step = 2e-4;
 // Below this what runs the other way right beside the branch is reached only at a tip of it.
 constexpr double tip_step = 1e-5;
+// Where the branch turns back the part ahead may catch Newton's method before the kink is there.
+constexpr double turning_step = 1e-6;
 constexpr double kink_correction =
     10.0;                              // of the step: a turn by 84°; beyond, it is another branch
 constexpr double cosine_limit = 0.93;  // 21.5°: beyond, the curve would look angular
@@ -188,13 +190,14 @@ bool BranchWalker::advance() {
   while (step_ >= shortest_step) {
     Trial trial = attempt(step_, modest-- > 0 ? 0 : 10);
     // By factors of another place the determinant is not known to so short a step.
-    const bool against =
-        !residual_ && trial.cosine > cosine_limit && trial.orientation * orientation_ < 0.0;
-    const double sharp = against ? tip_step : kink_step;
+    const bool flips = trial.orientation * orientation_ < 0.0;
+    const bool against = !residual_ && flips && trial.cosine > cosine_limit;
+    const bool back = !residual_ && flips == (trial.cosine > 0.0);
+    const double sharp = against ? tip_step : (back ? turning_step : kink_step);
     const bool kink = step_ < sharp && trial.correction < kink_correction;
     if (trial.converged && (smooth(trial) || kink)) {
       trial.tip = against && beyond_a_tip(trial);
-      trial.bent = trial.orientation * orientation_ < 0.0 && crosses_bent(trial);
+      trial.bent = flips && crosses_bent(trial);
       if (failed) remember(Remedy::shorter_step);
       const double distance = step_;
       choose_step(trial);
