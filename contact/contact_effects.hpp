@@ -6,8 +6,11 @@
 namespace microslip::contact {
 
 struct ContactEffects {
-  int n_harmonics = 1;            ///< highest that may occur
-  bool normal_motion = true;      ///< false: the load stays that of rest, whatever the approach
+  int n_harmonics = 1;        ///< highest that may occur
+  bool normal_motion = true;  ///< false: the load stays that of rest, whatever the approach
+  /// false: contact sees the vibration about the mean, whatever that is
+  /// (force/vibration_alone.hpp); in harmonic balance alone
+  bool mean_coupling = true;
   bool second_direction = false;  ///< friction along r beside p
   bool located = false;           ///< events are located of points that would else be sampled
   /// Of points that are sampled: what their force may err by, and how often the instants that

@@ -95,6 +95,8 @@ class ContactForce {
 
  private:
   [[nodiscard]] std::unique_ptr<ModalForce> force_of(std::size_t begin, std::size_t end) const;
+  /// With the mean of the motion, or without.
+  [[nodiscard]] std::unique_ptr<ModalForce> as_coupled(std::unique_ptr<ModalForce> force) const;
   /// Of the points of these patches, in order.
   [[nodiscard]] std::vector<SurfaceLaw> surfaces(std::size_t begin, std::size_t end) const;
 

@@ -9,6 +9,7 @@
 #include "contact/force/fewer_coordinates.hpp"
 #include "contact/force/patch_force.hpp"
 #include "contact/force/point_method_force.hpp"
+#include "contact/force/vibration_alone.hpp"
 #include "contact/line/line_events.hpp"
 #include "contact/line/surface_line_events.hpp"
 #include "contact/patch/patch_load.hpp"
@@ -188,11 +189,16 @@ ContactForce::ContactForce(const std::vector<Patch>& patches, const ContactEffec
 }
 
 std::unique_ptr<ModalForce> ContactForce::modal_force() const {
-  return force_of(0, patches_.size());
+  return as_coupled(force_of(0, patches_.size()));
 }
 
 std::unique_ptr<ModalForce> ContactForce::modal_force(std::size_t patch) const {
-  return force_of(patch, patch + 1);
+  return as_coupled(force_of(patch, patch + 1));
+}
+
+std::unique_ptr<ModalForce> ContactForce::as_coupled(std::unique_ptr<ModalForce> force) const {
+  if (effects_.mean_coupling) return force;
+  return std::make_unique<VibrationAlone>(std::move(force));
 }
 
 std::unique_ptr<ModalForce> ContactForce::force_of(std::size_t begin, std::size_t end) const {
@@ -238,8 +244,9 @@ std::unique_ptr<TransientForce> ContactForce::transient_force() const {
       std::move(stack.shapes));
 }
 
-ContactMap ContactForce::map(std::size_t index, Places places, const Harmonics& q, double frequency,
-                             int n_phases) const {
+ContactMap ContactForce::map(std::size_t index, Places places, const Harmonics& motion,
+                             double frequency, int n_phases) const {
+  const Harmonics q = effects_.mean_coupling ? motion : without_mean(motion);
   const Patch& patch = patches_[index];
   const PatchSamples& samples = places == Places::cells ? patch.cells : patch.vertices;
   const std::vector<PointParameters> points =

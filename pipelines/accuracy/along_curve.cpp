@@ -215,12 +215,12 @@ ErrorRow largest_row(const Indicator& indicator, const std::string& effect,
   return row;
 }
 
-/// What no model puts back: parts of normal motion that are "off", harmonics above the first.
+/// What no model puts back: separation that is "off", harmonics above the first.
 std::vector<std::string> without_model(const ReducedModel& model, const SceneDescription& scene,
                                        const solver::ResponseCurve& curve) {
   std::vector<std::string> names;
-  for (const char* name : {"separation", "mean_coupling"}) {
-    if (model.effects.normal_motion && setting_of(scene, name) == "off") names.emplace_back(name);
+  if (model.effects.normal_motion && setting_of(scene, "separation") == "off") {
+    names.emplace_back("separation");
   }
   const bool first_alone = std::ranges::all_of(
       curve.points, [](const solver::ResponsePoint& point) { return point.q.n_harmonics() == 1; });

@@ -65,7 +65,7 @@ constexpr std::array described{
 };
 
 bool is_switch(std::string_view name) {
-  return name == "normal_motion" || name == "second_direction";
+  return name == "normal_motion" || name == "mean_coupling" || name == "second_direction";
 }
 
 SceneDescription described_with(const Names& names, SceneDescription scene) {
@@ -119,6 +119,7 @@ RicherModel with_effects(const Names& names, const ReducedModel& model,
   other.source = fmt::format("{}", fmt::join(names, together));
   contact::ContactEffects& effects = other.model.effects;
   if (has(names, "normal_motion") || is_rough(other.model)) effects.normal_motion = true;
+  if (has(names, "mean_coupling")) effects.mean_coupling = true;
   if (has(names, "second_direction")) effects.second_direction = true;
   other.model.coordinates = contact_coordinates(other.model, with);
   return other;
@@ -155,6 +156,8 @@ std::vector<std::string> effects_left_out(const ReducedModel& model,
   std::vector<std::string> names;
   if (!model.effects.normal_motion && moves_along_normal(model))
     names.emplace_back("normal_motion");
+  if (!model.effects.mean_coupling && moves_along_normal(model))
+    names.emplace_back("mean_coupling");
   if (asks_for_direction(model, scene)) names.emplace_back("second_direction");
   for (const Described& effect : described) {
     if (effect.of_contact && model.patches.empty()) continue;

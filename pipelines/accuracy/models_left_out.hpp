@@ -16,7 +16,8 @@ namespace microslip::pipelines {
 /// Between the names of a source that is several effects.
 inline constexpr std::string_view together = " + ";
 
-/// The model at hand with one effect more each: normal motion that is left out, friction along r
+/// The model at hand with one effect more each: normal motion that is left out, or the mean of it
+/// alone, friction along r
 /// where a scene forbids it though the patch moves along r, and what is "off" though other keys
 /// give it: roughness (not without normal motion), dependence on speed, moments, the shape of a
 /// static preload, axes of every place of a curved face; residual and rotation. Modes are solved

@@ -46,6 +46,8 @@ ContactEffects contact_effects(const ReducedModel& model, const SceneDescription
   require_obeyed(chosen);
   const EffectRecord& along_r = effect_in(chosen, "second_direction");
   effects.normal_motion = effect_in(chosen, "normal_motion").simulated != Simulated::no;
+  effects.mean_coupling =
+      !effects.normal_motion || effect_in(chosen, "mean_coupling").simulated != Simulated::no;
   effects.motion_ratio = along_r.indicator.value_or(0.0);
   effects.second_direction = along_r.simulated == Simulated::yes && !model.patches.empty();
   if (effects.second_direction) require_stiffness_along_r(model);

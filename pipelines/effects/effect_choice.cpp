@@ -135,25 +135,37 @@ EffectDecision separation(const EffectFacts& facts) {
   return decision;
 }
 
+/// "off" of what has the mean all the same.
+EffectDecision mean_kept(EffectDecision decision) {
+  const double change = *decision.indicator;
+  if (change > effect_row("mean_coupling").threshold) {
+    decision.refusal = fmt::format(
+        "a motion integrated in time has its mean, which changes the load by up to {} its value in "
+        "the linear limits: leave it to \"auto\", give response.method = \"harmonic_balance\", or "
+        "keep the load that of rest by effects.normal_motion = \"off\"",
+        times_text(change));
+    return decision;
+  }
+  decision.reason = fmt::format(
+      "kept although it is \"off\", since a motion integrated in time has its mean: in the linear "
+      "limits that changes the load by {} its value at most",
+      times_text(change));
+  return decision;
+}
+
 EffectDecision mean_coupling(const EffectFacts& facts) {
   EffectDecision decision =
       with_normal_motion(facts, "the mean approach changes the load", &ContactReach::bias_load);
   if (decision.simulated != yes || facts.setting("mean_coupling") != "off") return decision;
   if (!decision.indicator) return decision;  // nothing that can move it is asked for
-  const double change = *decision.indicator;
-  if (change > effect_row("mean_coupling").threshold) {
-    decision.refusal = fmt::format(
-        "the mean approach changes the load by up to {} its value in the linear limits, and no law "
-        "of a point knows the vibration of the load without its mean: leave it to \"auto\", or "
-        "keep "
-        "the load that of rest by effects.normal_motion = \"off\"",
-        times_text(change));
-    return decision;
+  if (in_time(facts.scene)) return mean_kept(std::move(decision));
+  decision.simulated = no;
+  decision.reason = "effects.mean_coupling = \"off\": contact sees the vibration about the mean";
+  if (facts.model->frequency.minCoeff() <= 0.0) {
+    decision.refusal =
+        "a mode without stiffness of its own has no mean but that which contact holds: leave it to "
+        "\"auto\", or hold the structure by supports";
   }
-  decision.reason = fmt::format(
-      "kept in the equations although it is \"off\", since no law of a point is without it: in the "
-      "linear limits the mean approach changes the load by {} its value at most",
-      times_text(change));
   return decision;
 }
 

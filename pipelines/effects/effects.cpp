@@ -96,7 +96,7 @@ std::string why_no_cost(std::string_view name, const EffectFacts& facts) {
   static constexpr std::array reasons{
       Why{"normal_motion",
           "an evaluation takes about as long, how many more a curve needs is not known before"},
-      Why{"mean_coupling", "it comes with normal_motion"},
+      Why{"mean_coupling", "it comes with normal_motion, and an evaluation takes as long without"},
       Why{"local_frames", "axes of their own take no time of a curve"},
       Why{"static_preload", "one static solution, before the curves"},
       Why{"centrifugal", "modes and a static solution of the rotating body, before the curves"},

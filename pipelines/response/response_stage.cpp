@@ -264,7 +264,9 @@ solver::ContinuationOptions continuation_options(const SceneDescription& scene,
 solver::Scene balanced_scene(const ReducedModel& model, double load,
                              const solver::ContinuationOptions& options) {
   solver::Scene problem = solver_scene(model, load);
-  if (options.n_harmonics > 1) problem.transient = transient_force(model, load);
+  // A period map moves the mean as well.
+  const bool maps_period = options.n_harmonics > 1 && model.effects.mean_coupling;
+  if (maps_period) problem.transient = transient_force(model, load);
   return problem;
 }
 

@@ -411,6 +411,27 @@ class WhatOtherKeysGiveIsSwitchedOff(unittest.TestCase):
         self.assertAlmostEqual(row["bound"], abs(peaks(on)["scale_1"] / peaks(off)["scale_1"] - 1), delta=1e-4)
         self.assertNotEqual(row["objection"], "")
 
+    def test_the_mean_alone(self):
+        # A static force presses, or pulls: the load that the vibration meets is another one.
+        for static in (-60, 200):
+            with self.subTest(static):
+                path = scene(f"mean_{abs(static)}", normal=0.3, static=static)
+                off = run(f"mean_off_{abs(static)}", path, "response.harmonics=3", "effects.mean_coupling=off")
+                on = run(f"mean_on_{abs(static)}", path, "response.harmonics=3")
+                row = effect(off, "mean_coupling")
+                true = abs(peaks(on)["scale_1"] / peaks(off)["scale_1"] - 1)
+                print(f"static force {static}: the mean changes the peak by {100 * true:.2f} %, stated {100 * row['bound']:.2f} %")
+                self.assertIs(row["simulated"], False)
+                self.assertGreater(true, 0.02)
+                self.assertGreaterEqual(row["bound"], (1 - 1e-5) * true)
+                self.assertGreater(row["indicator"], row["threshold"])
+                self.assertGreater(row["along_curves"]["indicator"], row["threshold"])
+                self.assertTrue([line for line in off["warnings"] if "effects.mean_coupling: left out" in line], off["warnings"])
+        still = effect(run("mean_still", scene("mean_still", normal=0.01), NORMAL, "response.harmonics=3", "effects.mean_coupling=off"),
+                       "mean_coupling")
+        self.assertLess(still["bound"], 1e-3)
+        self.assertEqual(still["objection"], "")
+
     def test_effects_that_hide_each_other(self):
         path = scene("both_off", normal=0.2, across=0.3)
         off = run("both_off", path, "response.harmonics=3", "effects.normal_motion=off", "effects.second_direction=off")

@@ -252,5 +252,37 @@ TEST(LeftOut, SeveralArePutBackTogetherAsWell) {
   }
 }
 
+// A static force presses the point, so that it slips less: the mean decides the load.
+TEST(LeftOut, TheMeanOfNormalMotionThatIsOffIsPutBack) {
+  const Overrides pressed{"modal.force_static=[300, 0]", "effects.second_direction=off"};
+  Overrides off = pressed;
+  off.emplace_back("effects.mean_coupling=off");
+  for (const char* harmonics : {"response.harmonics=1", "response.harmonics=3"}) {
+    const auto study = [&](Overrides overrides) {
+      overrides.emplace_back(harmonics);
+      return of_point(overrides);
+    };
+    const Study without = study(off);
+    const Study with = study(pressed);
+    const auto rows = rows_of(without);
+    const ErrorRow* height = found(rows, "mean_coupling", peak_amplitude_goal);
+    const ErrorRow* place = found(rows, "mean_coupling", peak_frequency_goal);
+    ASSERT_TRUE(height != nullptr && place != nullptr) << harmonics;
+    const double expected = amplitude(with) / amplitude(without) - 1.0;
+    EXPECT_GT(std::abs(expected), 0.02);
+    EXPECT_NEAR(height->effect, expected, 1e-6) << harmonics;
+    // A peak is flat: its place is known to the root of what its height is.
+    EXPECT_NEAR(place->effect,
+                highest_peak(with.curves[0].curve)->frequency /
+                        highest_peak(without.curves[0].curve)->frequency -
+                    1.0,
+                1e-5);
+    const std::vector<RicherModel> others =
+        models_left_out(without.model, without.scene, nullptr).models;
+    EXPECT_EQ(found(rows_of(with), "mean_coupling", peak_amplitude_goal), nullptr);
+    EXPECT_EQ(others.front().source, "mean_coupling");
+  }
+}
+
 }  // namespace
 }  // namespace microslip::pipelines::test_left_out

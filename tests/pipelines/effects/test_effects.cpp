@@ -254,17 +254,42 @@ TEST(Effects, SeparationThatIsOffIsObeyedWhereNothingOpens) {
   }
 }
 
-TEST(Effects, MeanCouplingThatIsOffIsRefusedWhereItMatters) {
+TEST(Effects, MeanCouplingThatIsOffIsObeyedAndObjectedToWhereItMatters) {
   const auto scene_with = [](const char* force) {
     return scene_of({"modal.force_cosine=[1e-3]", "effects.mean_coupling=off",
                      "effects.normal_motion=on", std::string("modal.force_static=") + force});
   };
-  const SceneDescription quiet = scene_with("[0]");
-  const ReducedModel model = model_in(quiet);
-  const EffectRecord told = effect_in(effects_of(quiet, &model), "mean_coupling");
-  EXPECT_EQ(told.simulated, Simulated::yes) << "no method is without it, and the table says so";
-  EXPECT_NE(told.reason.find("\"off\""), std::string::npos) << told.reason;
-  EXPECT_THROW(static_cast<void>(model_in(scene_with("[-40]"))), RefusedError);
+  for (const auto& [force, matters] : {std::pair{"[0]", false}, std::pair{"[-40]", true}}) {
+    const SceneDescription scene = scene_with(force);
+    const ReducedModel model = model_in(scene);
+    EXPECT_FALSE(model.effects.mean_coupling);
+    const EffectRecord told = effect_in(effects_of(scene, &model), "mean_coupling");
+    EXPECT_EQ(told.simulated, Simulated::no);
+    EXPECT_EQ(!told.objection.empty(), matters) << told.objection;
+  }
+}
+
+TEST(Effects, MeanCouplingComesWithNormalMotionUnlessItIsOff) {
+  EXPECT_TRUE(model_in(scene_of({})).effects.mean_coupling);
+  const Overrides neither{"effects.mean_coupling=off", "effects.normal_motion=off"};
+  EXPECT_TRUE(model_in(scene_of(neither)).effects.mean_coupling)
+      << "normal motion that is put back brings it";
+}
+
+TEST(Effects, MeanCouplingThatCannotBeOffIsRefused) {
+  const Overrides off{"effects.mean_coupling=off", "effects.normal_motion=on"};
+  for (const Overrides& more :
+       {Overrides{"response.method=time", "response.points=5", "modal.force_static=[-40]"},
+        Overrides{"modal.frequency=[0]"}}) {
+    Overrides all = off;
+    all.insert(all.end(), more.begin(), more.end());
+    try {
+      static_cast<void>(model_in(scene_of(all)));
+      ADD_FAILURE() << more[0];
+    } catch (const RefusedError& error) {
+      EXPECT_TRUE(std::string(error.what()).starts_with("effects.mean_coupling")) << error.what();
+    }
+  }
 }
 
 TEST(Effects, PartsOfNormalMotionThatAreOnBringIt) {
