@@ -396,13 +396,15 @@ std::vector<ErrorRow> rows_there(const ReducedModel& simulated, const SceneDescr
     const ErrorRow* along = row_of(known, other.source, largest_indicator_goal);
     const ErrorRow* height = row_of(known, other.source, peak_amplitude_goal);
     const ErrorRow* shift = row_of(known, other.source, peak_frequency_goal);
-    if (!is_above(along) || height == nullptr || shift == nullptr || cut_short()) continue;
+    if (shift == nullptr) shift = row_of(known, other.source, peak_outside_goal);
+    if (!is_above(along) || shift == nullptr || cut_short()) continue;
     const solver::ResponsePoint* point = point_at(result.curve, along->where_hz);
-    if (point == nullptr || !std::isfinite(height->effect)) continue;
+    const double higher = height != nullptr ? height->effect : 0.0;  // of one outside: not compared
+    if (point == nullptr || !std::isfinite(higher)) continue;
     const auto both = solved_there(scene, model, other, *point, *load);
     if (!both) continue;
-    const double change = beyond_peak(both->other_amplitude - both->amplitude, *point, *peak,
-                                      height->effect, shift->effect);
+    const double change =
+        beyond_peak(both->other_amplitude - both->amplitude, *point, *peak, higher, shift->effect);
     rows.push_back({result.name, amplitude_there_goal, other.source, change, ErrorKind::solved, 0.0,
                     along->where_hz});
   }

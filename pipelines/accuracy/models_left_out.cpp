@@ -13,6 +13,7 @@
 #include "pipelines/description/curve_request.hpp"
 #include "pipelines/description/effects_left_out.hpp"
 #include "pipelines/effects/effect_choice.hpp"
+#include "pipelines/effects/motion_along_r.hpp"
 #include "pipelines/model/contact_coordinates.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/scene_error.hpp"
@@ -32,15 +33,18 @@ bool moves_along_normal(const ReducedModel& model) {
   });
 }
 
-/// What friction along r would do is told nowhere else.
+/// What friction along r would do is told nowhere else: error budgets have it of meshes alone. That
+/// the linear limits do not move along r is no reason: points that slip unevenly turn the patch.
 bool asks_for_direction(const ReducedModel& model, const SceneDescription& scene) {
   if (model.effects.second_direction || model.patches.empty()) return false;
   const bool stiff = std::ranges::all_of(model.patches, [](const contact::Patch& patch) {
     return patch.cells.stiffness.col(2).minCoeff() >= 0.0;
   });
   if (!stiff) return false;
-  if (!(model.effects.motion_ratio > least_given_motion)) return false;
-  return setting_of(scene, "second_direction") == "off" || in_time(scene) || only_limits(scene);
+  if (!can_rub_along_r(model)) return false;
+  const bool given_points = scene.contacts.empty();
+  return given_points || setting_of(scene, "second_direction") == "off" || in_time(scene) ||
+         only_limits(scene);
 }
 
 /// Switched off, on a face that is none.

@@ -23,7 +23,8 @@ inline constexpr std::string_view together = " + ";
 /// static preload, axes of every place of a curved face; residual and rotation. Modes are solved
 /// for again for the last three. Several are put back together as well.
 /// Harmonics and friction along r that was left to the program are in the error budget; friction
-/// along r is here where there is none, in motions in time and in linear limits.
+/// along r is here where there is none: of contact points that are given, in motions in time and in
+/// linear limits.
 /// @param structure  of the scene; nullptr: a kind that gives its modes itself.
 /// @return `source` is the name of the effect, or all names with `together` between;
 ///         `no_bound` and `note` tell of those that cannot be had.

@@ -14,6 +14,7 @@
 #include "pipelines/effects/effect_choice.hpp"
 #include "pipelines/effects/effect_indicators.hpp"
 #include "pipelines/effects/effect_sizes.hpp"
+#include "pipelines/effects/motion_along_r.hpp"
 #include "pipelines/system/scene_error.hpp"
 #include "pipelines/text/effect_table.hpp"
 #include "pipelines/text/rounded.hpp"
@@ -35,7 +36,7 @@ bool takes_rules(const SceneDescription& scene) {
 /// What a scene lacks for some effects is no question of seconds.
 bool can_be(std::string_view name, const EffectFacts& facts) {
   if (name == "second_direction") {
-    const bool still = facts.model != nullptr && facts.motion_ratio <= least_given_motion;
+    const bool still = facts.model != nullptr && !can_rub_along_r(*facts.model);
     return facts.has_friction && can_move_along_r(facts.scene) && !still;
   }
   if (name == "roughness") return facts.has_normal_stiffness && takes_rules(facts.scene);

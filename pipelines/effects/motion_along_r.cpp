@@ -27,12 +27,6 @@ bool any_rubbing_motion_along_r(const contact::PatchSamples& cells) {
   return false;
 }
 
-bool any_rubbing_motion_along_r(const ReducedModel& model) {
-  return std::ranges::any_of(model.patches, [](const contact::Patch& patch) {
-    return any_rubbing_motion_along_r(patch.cells);
-  });
-}
-
 /// Over the area of all patches.
 double rms(const ReducedModel& model, Eigen::MatrixXd contact::ModalShapes::*shape,
            const Eigen::VectorXcd& q) {
@@ -84,7 +78,7 @@ double largest_ratio(const ReducedModel& model, const Eigen::MatrixXd& stiffness
 }  // namespace
 
 double motion_ratio_along_r(const ReducedModel& model, const SceneDescription& scene) {
-  if (!scene.response || !any_rubbing_motion_along_r(model)) return 0.0;
+  if (!scene.response || !can_rub_along_r(model)) return 0.0;
   const auto [low, high] =
       std::minmax(scene.response->frequency_begin_hz, scene.response->frequency_end_hz);
   const double to_angular = 2.0 * std::numbers::pi;
@@ -95,6 +89,12 @@ double motion_ratio_along_r(const ReducedModel& model, const SceneDescription& s
     ratio = std::max(ratio, largest_ratio(model, stiffness, to_angular * low, to_angular * high));
   }
   return ratio;
+}
+
+bool can_rub_along_r(const ReducedModel& model) {
+  return std::ranges::any_of(model.patches, [](const contact::Patch& patch) {
+    return any_rubbing_motion_along_r(patch.cells);
+  });
 }
 
 }  // namespace microslip::pipelines

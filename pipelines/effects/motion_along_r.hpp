@@ -18,4 +18,9 @@ namespace microslip::pipelines {
 /// @param model  with its patches.
 [[nodiscard]] double motion_ratio_along_r(const ReducedModel& model, const SceneDescription& scene);
 
+/// Whether any place that rubs can move along r at all: with slip it may, though the linear limits
+/// do not.
+/// @param model  with its patches.
+[[nodiscard]] bool can_rub_along_r(const ReducedModel& model);
+
 }  // namespace microslip::pipelines

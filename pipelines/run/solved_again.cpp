@@ -8,6 +8,7 @@
 #include "pipelines/description/curve_request.hpp"
 #include "pipelines/description/damping_ratios.hpp"
 #include "pipelines/effects/effects.hpp"
+#include "pipelines/effects/motion_along_r.hpp"
 #include "pipelines/run/curve_family.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/scene_error.hpp"
@@ -78,7 +79,7 @@ std::vector<NoBound> without_bound(const Solution& solution) {
   for (std::string& name : effects_left_out(solution.model, solution.scene)) {
     none.push_back({std::move(name), why});
   }
-  if (solution.model.effects.motion_ratio > least_given_motion) {
+  if (can_rub_along_r(solution.model)) {
     none.push_back({"second_direction", why});
   }
   if (only_limits(solution.scene)) why = "no curve under a load is asked for";

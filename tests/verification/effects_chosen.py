@@ -9,6 +9,7 @@ usage: effects_chosen.py MICROSLIP SOURCE_FOLDER RUN_FOLDER          (MICROSLIP_
 import csv
 import functools
 import json
+import math
 import os
 import random
 import subprocess
@@ -298,6 +299,67 @@ class WhatMattersIsPutBack(unittest.TestCase):
     def test_nothing_is_put_back_where_nothing_is_asked_of_the_errors(self):
         unasked = self.runs("hidden_unasked", "accuracy.error_budget=off")
         self.assertIs(effect(unasked, "normal_motion")["simulated"], False)
+
+
+class SlipTurnsAPatch(unittest.TestCase):
+    """A block driven along p on an area that is loaded unevenly along r: every spring is the same, so that neither linear limit
+    turns it about the normal, and the indicator of friction along r is rounding. Where it slips friction turns it, near the
+    resonance of turning above all: each of these is seen by another check after the run, and friction along r put back."""
+
+    CURVE = "preload_20"
+
+    def settings(self, turning_hz, moment, to_hz):
+        stiffness = 0.003 * (2 * math.pi * turning_hz) ** 2  # inertia about q times its frequency squared
+        return ["contact.roughness=", "contact.cells=[2, 2]", 'excitation.forces=[{ at = [0, "-30 mm", 0], force = ["5 N", 0, 0] }]',
+                f'contact.preload_moment=["{moment} N*m", 0]', f"model.rotational_stiffness=[90, {stiffness}, 110]",
+                "response.harmonics=1", "response.maps=[]", "response.preload=[20]", f'response.frequency=["18 Hz", "{to_hz} Hz"]']
+
+    def compare(self, name, *values):
+        """The rows of friction along r: `auto`, and switched off."""
+        settings = self.settings(*values)
+        auto, off, on = (run(f"{name}_{setting}", f"{SCENES}/block_rough.toml", *settings, f"effects.second_direction={setting}")
+                         for setting in ("auto", "off", "on"))
+        row, without = effect(auto, "second_direction"), effect(off, "second_direction")
+        self.assertLess(row["indicator"], row["threshold"])
+        self.assertIs(row["simulated"], True)
+        self.assertGreater(row["switched_on"], 0.02)
+        self.assertEqual(peaks(auto).keys(), peaks(on).keys())
+        for curve, amplitude in peaks(on).items():
+            self.assertLess(abs(peaks(auto)[curve] / amplitude - 1), 1e-6)
+        change = self.largest_change(f"{name}_off", f"{name}_on")
+        print(f"{name}: friction along r changes the peak by {100 * abs(peaks(off)[self.CURVE] / peaks(on)[self.CURVE] - 1):.2f} %, "
+              f"the curve somewhere by {100 * change:.1f} % of it; told {100 * row['switched_on']:.1f} %")
+        self.assertGreater(change, 0.02)
+        self.assertTrue([line for line in off["warnings"] if "effects.second_direction: left out" in line], off["warnings"])
+        return row, without
+
+    def curve(self, name):
+        with open(os.path.join(FOLDER, name, "curves", self.CURVE + ".csv"), encoding="utf-8") as file:
+            return [(float(row["frequency_Hz"]), float(row["amplitude_m"])) for row in csv.DictReader(file)]
+
+    def largest_change(self, one, other):
+        """Of amplitudes at a frequency, over the highest; neither curve folds."""
+        points, line = self.curve(one), self.curve(other)
+        largest = 0.0
+        for frequency, amplitude in points:
+            for (f0, a0), (f1, a1) in zip(line, line[1:]):
+                if f0 <= frequency <= f1 and f0 < f1:
+                    largest = max(largest, abs(a0 + (a1 - a0) * (frequency - f0) / (f1 - f0) - amplitude))
+        return largest / max(amplitude for _, amplitude in points)
+
+    def test_the_peaks_tell(self):
+        _, without = self.compare("turning_peaks", 23, 0.2, 30)
+        self.assertGreater(without["bound"], 0.02)
+
+    def test_a_solution_point_tells_though_no_peak_does(self):
+        _, without = self.compare("turning_point", 24, 0.1, 34)
+        self.assertLess(without["bound"], 0.01)
+        self.assertIn("where its indicator is largest", without["objection"])
+
+    def test_a_solution_point_tells_though_the_peak_leaves_the_range(self):
+        _, without = self.compare("turning_outside", 24, 0.1, 29.9)
+        self.assertIsNone(without["bound"])
+        self.assertIn("its height is not compared", without["reason"])
 
 
 class WhatOtherKeysGiveIsSwitchedOff(unittest.TestCase):

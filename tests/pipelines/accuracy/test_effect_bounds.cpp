@@ -157,6 +157,22 @@ TEST(MissedEffects, ThoseThatAutoLeavesOutAndThatMatterArePutBack) {
   EXPECT_TRUE(missed_names(little, {left_out("normal_motion")}).empty());
 }
 
+// Beside the peaks: a solution point, the end of a range, a peak outside it.
+TEST(MissedEffects, ThoseThatMatterElsewhereArePutBackAsWell) {
+  for (const char* goal :
+       {amplitude_there_goal, resonance_goal, end_amplitude_goal, peak_outside_goal}) {
+    for (const char* name : {"normal_motion", "second_direction"}) {
+      const auto missed = [&](double change) {
+        return missed_names({{"a", peak_amplitude_goal, name, 1e-3, ErrorKind::solved, 0.1},
+                             {"a", goal, name, change, ErrorKind::solved, 0.1}},
+                            {left_out(name)});
+      };
+      EXPECT_EQ(missed(-0.05), std::vector<std::string>{name}) << goal;
+      EXPECT_TRUE(missed(0.019).empty()) << goal;
+    }
+  }
+}
+
 TEST(MissedEffects, ASwitchOfTheUserIsObeyed) {
   std::vector<EffectRecord> effects{left_out("normal_motion"), left_out("second_direction")};
   effects[0].setting = "off";

@@ -117,11 +117,16 @@ TEST(LeftOut, FrictionAlongRHasABoundInTime) {
 }
 
 // Below the limit of the indicator as well: what is "off" has a bound wherever `auto` has one.
-TEST(LeftOut, LittleMotionAlongRThatIsOffIsPutBack) {
-  Study study = of_chain({"response.preload=[50]", "effects.second_direction=off"});
-  EXPECT_EQ(effects_left_out(study.model, study.scene), Overrides{});
-  study.model.effects.motion_ratio = 0.02;
-  EXPECT_EQ(effects_left_out(study.model, study.scene), Overrides{"second_direction"});
+TEST(LeftOut, LittleMotionAlongRIsPutBackAndNoneIsNot) {
+  const auto names = [](double across, const char* setting) {
+    const std::string w = std::to_string(across);
+    const Study study = of_point({"modal.points[0].phi_w_1=" + w, "modal.points[0].phi_w_2=" + w,
+                                  std::string("effects.second_direction=") + setting});
+    return effects_left_out(study.model, study.scene);
+  };
+  EXPECT_EQ(names(1e-5, "off"), Overrides{"second_direction"});
+  EXPECT_EQ(names(0.0, "off"), Overrides{});
+  EXPECT_EQ(names(0.0, "auto"), Overrides{});
 }
 
 TEST(LeftOut, LimitsAloneAreComparedByTheirPeaks) {
