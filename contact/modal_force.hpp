@@ -53,6 +53,13 @@ struct CycleReport {
 /// What a force is known to be over a set of motions: its linear limit, stuck or free, exactly.
 enum class LinearState { unknown, stuck, free };
 
+/// Motions near one: every centre + Δx + Σ_j z_j spread_j.
+struct MotionSet {
+  Harmonics centre;     ///< [m√kg]
+  double radius = 0.0;  ///< ‖Δx‖ over all modal unknowns at most; may be infinite: all there are
+  Eigen::MatrixXd spread{};  ///< N × any number [m√kg], |z_j(θ)| ≤ 1 at every phase; empty: none
+};
+
 /// What is asked of the equations at a motion.
 struct Asked {
   /// Rows of Harmonics::rows() by which to differentiate, ascending; none: the force alone, which
@@ -127,11 +134,13 @@ class ModalForce {
 
   /// Linear limit with every point stuck [1/s², n_modes × n_modes]; the free limit is zero.
   [[nodiscard]] virtual Eigen::MatrixXd stuck_stiffness() const = 0;
-  /// What is proved of all motions within ‖Δx‖ ≤ radius of a centre [m√kg], which may be infinite:
-  /// of all there are. Unknown unless overridden.
-  [[nodiscard]] virtual LinearState linear_state(const Harmonics& /*centre*/,
-                                                 double /*radius*/) const {
+  /// What is proved of all motions of a set. Unknown unless overridden.
+  [[nodiscard]] virtual LinearState linear_state_of(const MotionSet& /*motions*/) const {
     return LinearState::unknown;
+  }
+  /// Of all within ‖Δx‖ ≤ radius of a centre.
+  [[nodiscard]] LinearState linear_state(const Harmonics& centre, double radius) const {
+    return linear_state_of({centre, radius});
   }
 
  private:

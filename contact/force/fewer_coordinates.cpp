@@ -51,8 +51,10 @@ Eigen::MatrixXd FewerCoordinates::stuck_stiffness() const {
   return of_modes_.transpose() * force_->stuck_stiffness() * of_modes_;
 }
 
-LinearState FewerCoordinates::linear_state(const Harmonics& centre, double radius) const {
-  return force_->linear_state(coordinates(centre), norm_ * radius);
+LinearState FewerCoordinates::linear_state_of(const MotionSet& motions) const {
+  MotionSet seen{coordinates(motions.centre), norm_ * motions.radius};
+  if (motions.spread.size() > 0) seen.spread = of_modes_ * motions.spread;
+  return force_->linear_state_of(seen);
 }
 
 ForceAndJacobian FewerCoordinates::evaluated(const Harmonics& q, double frequency,

@@ -27,7 +27,7 @@ class FewerCoordinates final : public ModalForce {
   void states(const Harmonics& q, double frequency, ContactStates& result,
               Workspace& work) const override;
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override;
-  [[nodiscard]] LinearState linear_state(const Harmonics& centre, double radius) const override;
+  [[nodiscard]] LinearState linear_state_of(const MotionSet& motions) const override;
 
  private:
   [[nodiscard]] ForceAndJacobian evaluated(const Harmonics& q, double frequency, const Asked& asked,

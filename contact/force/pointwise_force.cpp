@@ -145,8 +145,8 @@ CycleReport PointwiseForce::report(const Harmonics& q, double frequency,
   return report;
 }
 
-LinearState PointwiseForce::linear_state(const Harmonics& centre, double radius) const {
-  return contact::linear_state(points_, shapes_, centre, radius);
+LinearState PointwiseForce::linear_state_of(const MotionSet& motions) const {
+  return contact::linear_state(points_, shapes_, motions);
 }
 
 Eigen::MatrixXd PointwiseForce::stuck_stiffness() const {

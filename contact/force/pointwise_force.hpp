@@ -29,7 +29,7 @@ class PointwiseForce : public ModalForce {
               Workspace& work) const final;
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const final;
   /// Of any number of harmonics; unknown where a point has no range.
-  [[nodiscard]] LinearState linear_state(const Harmonics& centre, double radius) const final;
+  [[nodiscard]] LinearState linear_state_of(const MotionSet& motions) const final;
 
  protected:
   /// @param shapes  relative mode shapes at the points, n × n_modes;

@@ -16,6 +16,12 @@ namespace {
 constexpr Eigen::Index largest_n_groups = 256;
 constexpr Eigen::Index smallest_group = 16;
 
+/// What a spread moves every point at most along one direction [m], n_points.
+Eigen::VectorXd reach_of(const Eigen::MatrixXd& shape, const MotionSet& motions) {
+  if (shape.size() == 0 || motions.spread.size() == 0) return Eigen::VectorXd::Zero(shape.rows());
+  return (shape * motions.spread).cwiseAbs().rowwise().sum();
+}
+
 Eigen::Index n_groups(Eigen::Index n, Eigen::Index group) { return (n + group - 1) / group; }
 
 }  // namespace
@@ -124,10 +130,14 @@ const SleepingPart* SleepingSet::part() const {
 }
 
 LinearState linear_state(const RestingPoints& points, const ModalShapes& shapes,
-                         const Harmonics& centre, double radius) {
+                         const MotionSet& motions) {
   PatchMotion motion;
-  motion.set(shapes, centre);
-  const PhaseTable table(centre.n_harmonics());
+  motion.set(shapes, motions.centre);
+  const int n_harmonics = motions.centre.n_harmonics();
+  const PhaseTable table(n_harmonics);
+  const Eigen::VectorXd u = reach_of(shapes.u, motions);
+  const Eigen::VectorXd v = reach_of(shapes.v, motions);
+  const Eigen::VectorXd w = reach_of(shapes.w, motions);
   bool stuck = true;
   bool open = true;
   for (Eigen::Index i = 0; i < points.weights.size() && (stuck || open); ++i) {
@@ -136,8 +146,12 @@ LinearState linear_state(const RestingPoints& points, const ModalShapes& shapes,
     if (!range.has_value()) return LinearState::unknown;
     if (range->sticks_linearly && !range->rubs() && range->stiffness[1] == 0.0) continue;
     const Eigen::Vector3d sizes(shapes.u.row(i).norm(), shapes.v.row(i).norm(),
-                                shapes.w.size() > 0 ? shapes.w.row(i).norm() : 0.0);
-    const LinearReserve reserve = reserve_of_ball(*range, sizes, centre.n_harmonics(), radius);
+                                w.size() > 0 ? shapes.w.row(i).norm() : 0.0);
+    const Eigen::Vector3d reach(u[i], v[i], w.size() > 0 ? w[i] : 0.0);
+    LinearReserve reserve = reserve_of_ball(*range, sizes, n_harmonics, motions.radius);
+    const LinearReserve beside = reserve_of_reach(*range, reach);
+    reserve.stuck += beside.stuck;
+    reserve.open += beside.open;
     const SleepState state = sleep_state(*range, motion.of(i), table, 0.0, reserve);
     const bool any_speed = !range->friction.is_rate_dependent();
     stuck = stuck && any_speed && state == SleepState::stuck && range->rest_load >= 0.0;

@@ -54,13 +54,12 @@ struct RestingPoints {
   std::vector<std::optional<LinearRange>> ranges;  ///< none: always evaluated
 };
 
-/// Whether the patch answers every motion of a ball like a linear spring through the origin: all
+/// Whether the patch answers every motion of a set like a linear spring through the origin: all
 /// points stuck with n₀' ≥ 0, or all of them open with n₀' ≤ 0. A rest load that the mean motion
 /// takes away, or a gap that it closes, leaves a constant force: unknown. Points that exert no
 /// dynamic force at all (k_v = 0 with μ = 0 or k_u = 0) do not count.
-/// @param radius  ‖Δx‖ from the centre over all modal unknowns [m√kg], ≥ 0.
 [[nodiscard]] LinearState linear_state(const RestingPoints& points, const ModalShapes& shapes,
-                                       const Harmonics& centre, double radius);
+                                       const MotionSet& motions);
 
 /// Of one patch, in a workspace: its points and shapes are those of the constructor,
 /// here and below.

@@ -27,8 +27,8 @@ void VibrationAlone::states(const Harmonics& q, double frequency, ContactStates&
 
 Eigen::MatrixXd VibrationAlone::stuck_stiffness() const { return force_->stuck_stiffness(); }
 
-LinearState VibrationAlone::linear_state(const Harmonics& centre, double radius) const {
-  return force_->linear_state(without_mean(centre), radius);
+LinearState VibrationAlone::linear_state_of(const MotionSet& motions) const {
+  return force_->linear_state_of({without_mean(motions.centre), motions.radius, motions.spread});
 }
 
 ForceAndJacobian VibrationAlone::evaluated(const Harmonics& q, double frequency, const Asked& asked,

@@ -30,7 +30,7 @@ class VibrationAlone final : public ModalForce {
               Workspace& work) const override;
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override;
   /// Of the harmonics above the mean.
-  [[nodiscard]] LinearState linear_state(const Harmonics& centre, double radius) const override;
+  [[nodiscard]] LinearState linear_state_of(const MotionSet& motions) const override;
 
  private:
   [[nodiscard]] ForceAndJacobian evaluated(const Harmonics& q, double frequency, const Asked& asked,

@@ -134,15 +134,18 @@ PhaseTable::PhaseTable(int harmonics) : n_harmonics(harmonics) {
   rise = 0.5 * half_step * half_step;
 }
 
+LinearReserve reserve_of_reach(const LinearRange& range, const Eigen::Vector3d& reach) {
+  const double load = range.stiffness[1] * reach[1];
+  if (!range.rubs()) return {load, load};
+  const double tangential =
+      std::hypot(range.stiffness[0] * reach[0], range.stiffness[2] * reach[2]);
+  return {range.friction.at_rest() * load + tangential, load};
+}
+
 LinearReserve reserve_of_ball(const LinearRange& range, const Eigen::Vector3d& sizes,
                               int n_harmonics, double radius) {
   if (std::isinf(radius)) return {radius, radius};
-  const double reach = std::sqrt(1.0 + n_harmonics) * radius;
-  const double load = range.stiffness[1] * sizes[1] * reach;
-  if (!range.rubs()) return {load, load};
-  const double tangential =
-      std::hypot(range.stiffness[0] * sizes[0], range.stiffness[2] * sizes[2]);
-  return {range.friction.at_rest() * load + tangential * reach, load};
+  return reserve_of_reach(range, std::sqrt(1.0 + n_harmonics) * radius * sizes);
 }
 
 SleepState sleep_state(const LinearRange& range, const PointRows& motion, const PhaseTable& table,

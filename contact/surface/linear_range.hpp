@@ -69,6 +69,11 @@ struct LinearReserve {
   double open = 0.0;
 };
 
+/// What motions may use up that are off by no more than this at any phase.
+/// @param reach  along p, q, r [m].
+[[nodiscard]] LinearReserve reserve_of_reach(const LinearRange& range,
+                                             const Eigen::Vector3d& reach);
+
 /// What all motions of a ball ‖Δx‖ ≤ radius [m√kg] over all modal unknowns may use up:
 /// |Δx(θ)| ≤ ‖φ‖ √(1+H) ‖Δx‖.
 /// @param sizes  ‖φ_u‖, ‖φ_v‖, ‖φ_w‖ at the point [1/√kg].

@@ -32,8 +32,8 @@ class LinearForce final : public contact::ModalForce {
     return contact_ != nullptr ? contact_->report(q, frequency, work) : report_;
   }
   /// The free limit, or one of contact that sticks, whatever the motion.
-  [[nodiscard]] contact::LinearState linear_state(const contact::Harmonics& /*centre*/,
-                                                  double /*radius*/) const override {
+  [[nodiscard]] contact::LinearState linear_state_of(
+      const contact::MotionSet& /*motions*/) const override {
     return stiffness_.isZero(0.0) ? contact::LinearState::free : contact::LinearState::stuck;
   }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "contact/dense.hpp"
+#include "solver/curve/modal_enclosure.hpp"
 
 namespace microslip::solver {
 namespace {
@@ -25,10 +26,16 @@ struct Interval {
   double high = 0.0;
 };
 
-struct Enclosure {
-  Harmonics centre;
-  double radius = std::numeric_limits<double>::infinity();
-};
+Eigen::MatrixXd stiffness_of(const HarmonicBalance& balance, LinearState limit) {
+  Eigen::MatrixXd K = balance.scene().natural_frequency.array().square().matrix().asDiagonal();
+  if (limit == LinearState::stuck) K += balance.stuck_stiffness();
+  return K;
+}
+
+/// Sine + i cosine.
+Eigen::VectorXcd first_harmonic(const Harmonics& q) {
+  return q.sine().transpose() + std::complex<double>(0.0, 1.0) * q.cosine().transpose();
+}
 
 /// Relative errors of an inverse and its products, as bounded by the backward error of elimination.
 double backward_errors(Eigen::Index n) {
@@ -38,14 +45,16 @@ double backward_errors(Eigen::Index n) {
 class Proof {
  public:
   Proof(const HarmonicBalance& balance, LinearState limit)
-      : balance_(balance), limit_(limit), n_(balance.scene().n_modes()) {
-    const Scene& scene = balance.scene();
-    K_ = scene.natural_frequency.array().square().matrix().asDiagonal();
-    if (limit == LinearState::stuck) K_ += balance.stuck_stiffness();
-    damping_ = 2.0 * scene.damping_ratio.array() * scene.natural_frequency.array();
+      : balance_(balance),
+        limit_(limit),
+        n_(balance.scene().n_modes()),
+        K_(stiffness_of(balance, limit)),
+        damping_(2.0 *
+                 balance.scene().damping_ratio.cwiseProduct(balance.scene().natural_frequency)),
+        mean_(Eigen::VectorXd::Zero(n_)),
+        load_(first_harmonic(balance.harmonics(balance.excitation()))),
+        modal_(K_, damping_, load_) {
     const Harmonics Q = balance.harmonics(balance.excitation());
-    load_ = Q.sine().transpose() + std::complex<double>(0.0, 1.0) * Q.cosine().transpose();
-    mean_ = Eigen::VectorXd::Zero(n_);
     if (Q.mean().norm() > 0.0) {
       const auto inverse = contact::inverted(K_);
       if (!inverse) {
@@ -60,6 +69,10 @@ class Proof {
 
   /// Proved over the whole range.
   bool run(double low, double high, int& n_intervals) {
+    if (holds_by_modes({low, high})) {
+      ++n_intervals;
+      return true;
+    }
     for (const double frequency : resonances(low, high)) {
       if (!holds({frequency, frequency}, n_intervals)) return false;
     }
@@ -83,9 +96,28 @@ class Proof {
  private:
   [[nodiscard]] bool holds(const Interval& interval, int& n_intervals) const {
     ++n_intervals;
-    const Enclosure enclosure = enclose(interval);
-    return std::isfinite(enclosure.radius) && enclosure.centre.rows().allFinite() &&
-           balance_.scene().contact->linear_state(enclosure.centre, enclosure.radius) == limit_;
+    return holds_by_modes(interval) || is_limit(enclose(interval));
+  }
+
+  [[nodiscard]] bool holds_by_modes(const Interval& interval) const {
+    const ModalBox box = modal_.over(interval.low, interval.high);
+    if (!std::isfinite(box.radius)) return false;
+    return is_limit(
+        {motion_of(box.centre), box.radius + mean_error_, modal_.modes() * box.reach.asDiagonal()});
+  }
+
+  [[nodiscard]] bool is_limit(const contact::MotionSet& motions) const {
+    return std::isfinite(motions.radius) && motions.centre.rows().allFinite() &&
+           balance_.scene().contact->linear_state_of(motions) == limit_;
+  }
+
+  /// About the static response.
+  [[nodiscard]] Harmonics motion_of(const Eigen::VectorXcd& A) const {
+    Harmonics motion(1, n_);
+    motion.rows().row(0) = mean_.transpose();
+    motion.rows().row(1) = A.real().transpose();
+    motion.rows().row(2) = A.imag().transpose();
+    return motion;
   }
 
   /// Frequencies at which amplitudes peak: there a limit that does not hold fails first.
@@ -100,24 +132,23 @@ class Proof {
     return list;
   }
 
-  [[nodiscard]] Enclosure enclose(const Interval& interval) const {
+  [[nodiscard]] contact::MotionSet enclose(const Interval& interval) const {
+    const contact::MotionSet nothing{Harmonics(1, n_), std::numeric_limits<double>::infinity()};
     const double omega = 0.5 * (interval.low + interval.high);
     const double h = std::max(interval.high - omega, omega - interval.low);
+    // The norm of G diag(e) is no less: no inverse is needed to see it.
+    if (!(h * (2.0 * omega + h) < contraction * modal_.distance(omega))) return nothing;
     Eigen::MatrixXcd D = K_.cast<std::complex<double>>();
     D.diagonal().array() += std::complex<double>(-omega * omega, 0.0);
     D.diagonal() += std::complex<double>(0.0, omega) * damping_.cast<std::complex<double>>();
     const auto inverse = contact::inverted(D);
-    if (!inverse) return {};  // an undamped resonance
+    if (!inverse) return nothing;  // an undamped resonance
     const Eigen::VectorXcd A = *inverse * load_;
     const Eigen::MatrixXd G = inverse->cwiseAbs();
     const Eigen::VectorXd size = A.cwiseAbs();
     const Eigen::VectorXd error =
         backward_errors(n_) * (G * (D.cwiseAbs() * size + load_.cwiseAbs()));
-    Enclosure result;
-    result.centre = Harmonics(1, n_);
-    result.centre.rows().row(0) = mean_.transpose();
-    result.centre.rows().row(1) = A.real().transpose();
-    result.centre.rows().row(2) = A.imag().transpose();
+    contact::MotionSet result{motion_of(A), std::numeric_limits<double>::infinity()};
     if (h == 0.0) {
       result.radius = error.norm() + mean_error_;
       return result;
@@ -140,6 +171,7 @@ class Proof {
   Eigen::VectorXd mean_;
   double mean_error_ = 0.0;
   Eigen::VectorXcd load_;
+  ModalEnclosure modal_;
 };
 
 }  // namespace

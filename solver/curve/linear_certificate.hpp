@@ -2,7 +2,8 @@
 /// Proof that a linear limit solves the nonlinear equations over a whole frequency range, so that
 /// no nonlinear solver is needed. The linear response at a frequency is checked against the
 /// conditions of contact; between frequencies it is enclosed.
-/// With D(ω) = K − ω² + iωC and A = D⁻¹Q, on |ω − ω_m| ≤ h:
+/// With D(ω) = K − ω² + iωC and A = D⁻¹Q, on |ω − ω_m| ≤ h, by sums over modes, which
+/// are cheap and rough (modal_enclosure.hpp); where these do not do by the inverse in the middle:
 ///
 ///   A = A_m − D_m⁻¹ [D(ω) − D_m] A,      |D(ω) − D_m| ≤ e = 2ω_m h + h² + h c     (per mode)
 ///   |A − A_m| ≤ (I − G diag(e))⁻¹ G diag(e) |A_m|,      G = |D_m⁻¹|

@@ -1,5 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <utility>
+
+#include "contact/force/fewer_coordinates.hpp"
 #include "contact/force/patch_force.hpp"
 
 namespace microslip::contact::test_linear_proof {
@@ -11,6 +15,14 @@ PatchForce patch(const PointParameters& first, const PointParameters& second) {
   shapes.u << 1.0, 1.0;
   shapes.v << 0.0, 0.5;
   return {ContactPatch(Eigen::Vector2d(1.0, 1.0), {first, second}), shapes};
+}
+
+std::unique_ptr<ModalForce> whole(const PointParameters& both) {
+  ModalShapes shapes{Eigen::MatrixXd(2, 1), Eigen::MatrixXd(2, 1), {}};
+  shapes.u << 1.0, 1.0;
+  shapes.v << 0.0, 0.5;
+  return std::make_unique<PatchForce>(ContactPatch(Eigen::Vector2d(1.0, 1.0), {both, both}),
+                                      std::move(shapes));
 }
 
 Harmonics motion(double mean, double sine) {
@@ -29,6 +41,32 @@ TEST(LinearState, OfASetShrinksToTheStateOfItsPoints) {
   EXPECT_EQ(force.linear_state(motion(0.0, 2.22), 0.0), LinearState::stuck);
   EXPECT_EQ(force.linear_state(motion(0.0, 2.23), 0.0), LinearState::unknown);
   EXPECT_EQ(force.linear_state(motion(0.0, 1.0), 2.0), LinearState::unknown);
+}
+
+// Beside a motion of 1 that takes 2.25 of 5: another 2.25 of each 1.
+TEST(LinearState, OfASpreadCountsWhatItMovesEveryPoint) {
+  const auto state = [](double spread) {
+    return patch(pressed, pressed)
+        .linear_state_of({motion(0.0, 1.0), 0.0, Eigen::MatrixXd::Constant(1, 1, spread)});
+  };
+  EXPECT_EQ(state(1.2), LinearState::stuck);
+  EXPECT_EQ(state(-1.2), LinearState::stuck);
+  EXPECT_EQ(state(1.25), LinearState::unknown);
+  // Columns add up, and so does a ball, √2 of its radius at the worst phase.
+  const Eigen::MatrixXd two = Eigen::MatrixXd::Constant(1, 2, 0.6);
+  EXPECT_EQ(patch(pressed, pressed).linear_state_of({motion(0.0, 1.0), 0.01, two}),
+            LinearState::stuck);
+  EXPECT_EQ(patch(pressed, pressed).linear_state_of({motion(0.0, 1.0), 0.03, two}),
+            LinearState::unknown);
+}
+
+TEST(LinearState, OfASpreadIsSeenThroughCoordinates) {
+  const auto state = [](double spread) {
+    const FewerCoordinates force(Eigen::MatrixXd::Constant(1, 1, 2.0), whole(pressed));
+    return force.linear_state_of({motion(0.0, 0.5), 0.0, Eigen::MatrixXd::Constant(1, 1, spread)});
+  };
+  EXPECT_EQ(state(0.6), LinearState::stuck);
+  EXPECT_EQ(state(0.625), LinearState::unknown);
 }
 
 TEST(LinearState, NeedsTheMeanForceToBeThatOfTheSprings) {
