@@ -20,6 +20,8 @@ constexpr double of_a_curve = 600.0;
 constexpr double of_a_choosing_curve = 1600.0;  // one with few harmonics, the choice, one with all
 // Times as many where several points open and close at instants of their own, events located.
 constexpr double of_many_events = 3.2;
+// The same of a mesh whose contact is one point, which opens with all of its load.
+constexpr double of_one_point_that_opens = 4.0;
 // An effect put back at the peaks of a curve: of a mesh, with a peak or two; of numbers.
 constexpr double of_an_effect_on_a_mesh = 60.0;
 constexpr double of_an_effect = 190.0;
@@ -155,6 +157,10 @@ bool has_many_events(const SceneDescription& scene, const Size& size) {
   return varies && contact::method_for(n, false, size.harmonics) == contact::Method::point_methods;
 }
 
+bool opens_at_once(const SceneDescription& scene, const CurveEffects& effects) {
+  return !scene.contacts.empty() && !effects.areas && setting_of(scene, "normal_motion") != "off";
+}
+
 double cube_of_unknowns(const Size& size) {
   const double unknowns = size.modes * (2.0 * size.harmonics + 1.0);
   return unknowns * unknowns * unknowns;
@@ -224,7 +230,9 @@ std::vector<bool CurveEffects::*> members_left_out(const SceneDescription& scene
   if (setting_of(scene, "second_direction") == "off" && can_move_along_r(scene)) {
     members.push_back(&CurveEffects::second_direction);
   }
-  if (setting_of(scene, "normal_motion") == "off") members.push_back(nullptr);
+  for (const char* name : {"normal_motion", "mean_coupling"}) {
+    if (setting_of(scene, name) == "off") members.push_back(nullptr);
+  }
   return members;
 }
 
@@ -278,7 +286,9 @@ ResponseSeconds response_seconds(const SceneDescription& scene, const CurveEffec
     seconds.curves = seconds_in_time(scene, size);
     if (scene.accuracy.error_budget) seconds.errors = integrations_with(scene, seconds.curves);
   } else {
-    const double more = has_many_events(scene, size) ? of_many_events : 1.0;
+    const double more = has_many_events(scene, size)    ? of_many_events
+                        : opens_at_once(scene, effects) ? of_one_point_that_opens
+                                                        : 1.0;
     const double evaluations = more * (one                        ? of_one_frequency
                                        : effects.chosen_harmonics ? of_a_choosing_curve
                                                                   : of_a_curve);
