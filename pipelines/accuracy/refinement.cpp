@@ -239,7 +239,7 @@ class Plans {
     constexpr double beside = 0.5;  // of the tolerance
     // Large errors are rough ones: to go all the way at once is to go too far, and a finer mesh or
     // friction along r for nothing costs more than a round. What moves is left to the next one.
-    constexpr double ambition = 5.0;
+    constexpr double ambition = 4.0;
     double rough = 0.0;
     for (const Errors& one : errors) {
       if (const double bar = bar_of(one); std::isfinite(bar))
