@@ -33,8 +33,13 @@ Eigen::MatrixXd same_signs(const ReducedModel& from, const ReducedModel& to) {
   return embedding;
 }
 
-/// What is left after extrapolation falls at least half an order faster.
-double extrapolated_ratio(double ratio) { return std::numbers::sqrt2 * ratio; }
+/// What is left after extrapolation falls at least half an order faster, but for what is not
+/// extrapolated.
+double extrapolated_ratio(const SolvedStructure& structure) {
+  const double ratio = structure.coarser->ratio;
+  const bool all = structure.modes.residuals.empty() && !structure.modes.static_face;
+  return all ? std::numbers::sqrt2 * ratio : ratio;
+}
 
 /// @param ratio  of errors, from the coarser mesh to the one at hand.
 std::optional<RicherModel> coarser_model(const ReducedModel& model, const SceneDescription& scene,
@@ -55,8 +60,7 @@ std::optional<RicherModel> coarser_mesh(const ReducedModel& model, const SceneDe
   if (!element_size_of(scene)) return std::nullopt;
   try {
     if (structure.coarser) {
-      return coarser_model(model, scene, structure.coarser->twice,
-                           extrapolated_ratio(structure.coarser->ratio));
+      return coarser_model(model, scene, structure.coarser->twice, extrapolated_ratio(structure));
     }
     const SolvedStructure twice =
         on_larger_elements(scene, 2.0, model.frequency.size() - model.n_attachment);

@@ -12,8 +12,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "pipelines/structure/extrapolated_modes.hpp"
-
 namespace microslip::pipelines {
 namespace {
 
@@ -144,7 +142,8 @@ double left_with_edges(double share) { return 0.2 + 0.8 * share; }
 /// Of the time of mesh and modes.
 double price_of_edges(double share) { return share < 1.0 ? 1.0 + 0.1 / (share * share) : 1.0; }
 
-Moves moves_of_mesh(const SceneDescription& scene) {
+/// @param extrapolated  the modes.
+Moves moves_of_mesh(const SceneDescription& scene, bool extrapolated) {
   const std::optional<double> given = element_size_of(scene);
   if (!given) return {};
   constexpr double power_of_time = 3.3;  // of 1/size: mesh, factorisation, modes
@@ -156,7 +155,7 @@ Moves moves_of_mesh(const SceneDescription& scene) {
     if (blade != nullptr && finer < 0.9 * now) shares.push_back(finer);
   }
   // Of extrapolated modes the next term is left, which falls at least half an order faster.
-  const double order = is_extrapolated(scene) ? 1.5 : 1.0;
+  const double order = extrapolated ? 1.5 : 1.0;
   Moves moves;
   for (const double factor : {1.0, 0.85, 0.7, 0.6, 0.5, 0.35, 0.25}) {
     for (const double edges : shares) {
@@ -181,13 +180,13 @@ Moves moves_of_mesh(const SceneDescription& scene) {
 }
 
 Moves moves_of(const std::string& source, const SceneDescription& scene, double tolerance,
-               double error) {
+               double error, bool extrapolated) {
   const bool meshed = !std::holds_alternative<ModalModel>(scene.model);
   if (source == "harmonics") return moves_of_harmonics(scene, tolerance, error);
   if (source == "cells" && meshed) return moves_of_cells(scene);
   if (source == "fit" && meshed) return moves_of_fit();
   if (source == "second_direction") return moves_of_second_direction();
-  if (source == "mesh") return moves_of_mesh(scene);
+  if (source == "mesh") return moves_of_mesh(scene, extrapolated);
   return {};
 }
 
@@ -207,7 +206,7 @@ double bar_of(const Errors& errors) {
 /// peak that moves. Measured on the default blade: 2.3 and 1.0 % with nine harmonics are 6.3 and
 /// 5.5 % with those that are needed. Of extrapolated modes 7 % are 11 %.
 /// @param are_refined  the harmonics.
-/// @param doubt        the factor, as doubt_of() of the scene.
+/// @param doubt        the factor, as doubt_of() what was solved.
 double growth(const std::string& source, const Errors& errors, bool are_refined, double doubt) {
   constexpr double moves_away = 0.02;
   const auto harmonics = errors.find("harmonics");
@@ -215,7 +214,7 @@ double growth(const std::string& source, const Errors& errors, bool are_refined,
   return source == "mesh" && moves ? doubt : 1.0;
 }
 
-double doubt_of(const SceneDescription& scene) { return is_extrapolated(scene) ? 1.5 : 3.0; }
+double doubt_of(const SpentSeconds& spent) { return spent.extrapolated ? 1.5 : 3.0; }
 
 double bar_after(const Errors& errors, const Plan& plan, double doubt) {
   const auto harmonics = plan.moves.find("harmonics");
@@ -242,8 +241,9 @@ class Plans {
     constexpr double ambition = 4.0;
     double rough = 0.0;
     for (const Errors& one : errors) {
-      if (const double bar = bar_of(one); std::isfinite(bar))
-        rough = std::max(rough, bar / ambition);
+      const double bar = bar_of(one);
+      if (!std::isfinite(bar)) continue;
+      rough = std::max(rough, (bar - least_of(one, moves, doubt)) / ambition);
     }
     for (const Errors& one : errors) {
       bounds_.push_back(
@@ -321,7 +321,8 @@ bool gains(const Plan& plan, const std::vector<Errors>& errors, double tolerance
 /// Every source that a bar has, and what can be done with it;
 /// to leave it is the first of its moves.
 std::map<std::string, Moves> all_moves(const SceneDescription& scene,
-                                       const std::vector<Errors>& errors, double tolerance) {
+                                       const std::vector<Errors>& errors, double tolerance,
+                                       bool extrapolated) {
   constexpr double idle = 1e-3;  // of the tolerance: too little to think about
   std::map<std::string, Moves> result;
   for (const Errors& one : errors) {
@@ -331,7 +332,9 @@ std::map<std::string, Moves> all_moves(const SceneDescription& scene,
     const double error = largest_of(errors, source);
     moves.push_back({});
     if (error <= idle * tolerance) continue;
-    for (Move& move : moves_of(source, scene, tolerance, error)) moves.push_back(std::move(move));
+    for (Move& move : moves_of(source, scene, tolerance, error, extrapolated)) {
+      moves.push_back(std::move(move));
+    }
   }
   return result;
 }
@@ -380,9 +383,10 @@ std::optional<Refinement> refinement(const SceneDescription& scene,
                                      const std::vector<CurveBudget>& budgets, double tolerance,
                                      const SpentSeconds& spent, std::string& left) {
   const std::vector<Errors> errors = errors_of(budgets);
-  const std::map<std::string, Moves> moves = all_moves(scene, errors, tolerance);
+  const std::map<std::string, Moves> moves =
+      all_moves(scene, errors, tolerance, spent.extrapolated);
   left = stuck_sources(moves, errors, tolerance);
-  const double doubt = doubt_of(scene);
+  const double doubt = doubt_of(spent);
   const Plans plans(errors, moves, spent, tolerance, doubt);
   const Plan& plan = plans.cheapest();
   Refinement result{.scene = scene, .text = {}, .seconds = plan.seconds};

@@ -28,6 +28,7 @@ struct SpentSeconds {
   /// Of the curves that are not exact enough yet: these alone are solved again where only harmonics
   /// change. Empty: all.
   std::optional<double> inexact_curves{};
+  bool extrapolated = false;  ///< the modes: the error of the mesh falls faster
 };
 
 /// The largest bar of all budgets, of amplitude or frequency; infinite where one has none,

@@ -26,6 +26,7 @@ SpentSeconds spent_on(const Solution& solution) {
   SpentSeconds spent;
   if (solution.structure) {
     spent.structure = per_freedom * static_cast<double>(solution.structure->modes.n_dofs);
+    spent.extrapolated = solution.structure->coarser != nullptr;
   }
   double inexact = 0.0;
   for (std::size_t i = 0; i < solution.curves.size(); ++i) {

@@ -64,8 +64,9 @@ StructurePointer solved_structure(const SceneDescription& scene, RunRecord& reco
   record.keep_modes(mesh, *modes,
                     damping_ratios(scene.modes, modes->basis.frequency, modes->basis.n_attachment));
   SolvedStructure structure{std::move(mesh), std::move(*modes)};
-  extrapolate_modes(structure, scene);
-  if (structure.coarser) record.progress().info(structure.coarser->text);
+  if (const std::string text = extrapolate_modes(structure, scene); !text.empty()) {
+    record.progress().info(text);
+  }
   record.stage("contact");
   return std::make_shared<const SolvedStructure>(std::move(structure));
 }

@@ -10,6 +10,7 @@
 #include "pipelines/effects/effects.hpp"
 #include "pipelines/effects/motion_along_r.hpp"
 #include "pipelines/run/curve_family.hpp"
+#include "pipelines/structure/extrapolated_modes.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/scene_error.hpp"
 #include "pipelines/text/effect_table.hpp"
@@ -130,6 +131,7 @@ void keep_solved_again(const SolvedAgain& round, bool new_mesh, RunRecord& recor
     record.keep_modes(
         now.structure->mesh, modes,
         damping_ratios(now.scene.modes, modes.basis.frequency, modes.basis.n_attachment));
+    if (now.structure->coarser) record.progress().info(now.structure->coarser->text);
     record.keep_structure(now.structure->mesh, modes.basis);
   }
   for (const std::string& warning : round.warnings) record.progress().warning(warning);

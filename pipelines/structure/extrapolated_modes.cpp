@@ -1,16 +1,20 @@
 #include "pipelines/structure/extrapolated_modes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <exception>
 #include <memory>
 #include <numbers>
+#include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "mesh/interpolation.hpp"
+#include "pipelines/system/deadline.hpp"
 #include "pipelines/system/scene_error.hpp"
 #include "pipelines/system/temporary_folder.hpp"
 
@@ -21,6 +25,7 @@ using Interpolation = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 constexpr double lowest_ratio = 2.0;
 constexpr double highest_ratio = 16.0;
+constexpr double turn = 2.0 * std::numbers::pi;
 
 /// Shapes at the nodes of another mesh. @param shapes  3 n_nodes × n, x y z per node.
 Eigen::MatrixXd moved(const Interpolation& to, const Eigen::MatrixXd& shapes) {
@@ -31,6 +36,11 @@ Eigen::MatrixXd moved(const Interpolation& to, const Eigen::MatrixXd& shapes) {
     Eigen::Map<Nodal>(result.col(i).data(), to.rows(), 3) = to * from;
   }
   return result;
+}
+
+fem::ModalBasis at_nodes(const Interpolation& to, fem::ModalBasis basis) {
+  basis.shapes = moved(to, basis.shapes);
+  return basis;
 }
 
 /// Columns of one kind of a basis: free modes or attachment shapes.
@@ -48,13 +58,16 @@ using Matches = std::vector<Match>;
 
 /// @param other  shapes at the same nodes.
 Matches matches(const fem::ModalBasis& basis, const fem::ModalBasis& other) {
-  constexpr double same = 0.9;  // cosine
+  // Cosine: what two shapes differ by beyond their sign is scaled by up to two. Modes of nearly one
+  // frequency, which turn from mesh to mesh, are not the same.
+  constexpr double same = 0.99;
   Matches found(static_cast<std::size_t>(basis.frequency.size()));
-  if (basis.n_free() != other.n_free() || basis.n_attachment != other.n_attachment) return found;
   const Eigen::MatrixXd cosines =
       basis.shapes.colwise().normalized().transpose() * other.shapes.colwise().normalized();
-  for (const Columns& kind :
-       {Columns{0, basis.n_free()}, Columns{basis.n_free(), basis.frequency.size()}}) {
+  const std::array kinds{Columns{0, std::min(basis.n_free(), other.n_free())},
+                         Columns{basis.n_free(), basis.frequency.size()}};
+  const bool all = basis.n_free() == other.n_free() && basis.n_attachment == other.n_attachment;
+  for (const Columns& kind : std::span(kinds).first(all ? 2 : 1)) {
     for (Eigen::Index i = kind.begin; i < kind.end; ++i) {
       Eigen::Index j = 0;
       const auto of_kind = cosines.row(i).segment(kind.begin, kind.end - kind.begin);
@@ -66,93 +79,93 @@ Matches matches(const fem::ModalBasis& basis, const fem::ModalBasis& other) {
   return found;
 }
 
-/// One column.
-void extrapolate(fem::ModalBasis& fine, Eigen::Index i, const fem::ModalBasis& coarse,
-                 const Match& match, double ratio) {
-  constexpr double most = 0.5;  // of ω²: beyond it nothing converges
-  const double share = 1.0 / (ratio - 1.0);
-  const double square = std::pow(fine.frequency[i], 2);
-  const double change = share * (square - std::pow(coarse.frequency[match.column], 2));
-  if (!(std::abs(change) < most * square)) return;
-  fine.frequency[i] = std::sqrt(square + change);
-  fine.shapes.col(i) += share * (fine.shapes.col(i) - match.sign * coarse.shapes.col(match.column));
+/// Frequencies on elements of h, 2h and 4h [rad/s].
+struct ThreeFrequencies {
+  double fine, coarse, coarsest;
+};
+
+/// Steps of one sign, each smaller than the one before, and small already.
+bool converges(const ThreeFrequencies& of) {
+  constexpr double small = 0.03;  // of the frequency: elements larger than parts of the body
+  const double step = of.coarse - of.fine;
+  const double before = of.coarsest - of.coarse;
+  return step * before > 0.0 && std::abs(step) < std::abs(before) &&
+         std::abs(step) < small * of.fine;
 }
 
-/// @param coarse  shapes at the nodes of the fine mesh.
-/// @param ratios  2^p of the columns.
-void extrapolate(fem::ModalBasis& fine, const fem::ModalBasis& coarse, const Matches& same,
-                 const std::vector<double>& ratios) {
-  for (std::size_t i = 0; i < same.size(); ++i) {
-    if (same[i].column < 0) continue;
-    extrapolate(fine, static_cast<Eigen::Index>(i), coarse, same[i], ratios[i]);
-  }
-}
+using Ratios = std::vector<std::optional<double>>;  // 2^p of columns; empty: they stay
 
-fem::ModalBasis at_nodes(const Interpolation& to, fem::ModalBasis basis) {
-  basis.shapes = moved(to, basis.shapes);
-  return basis;
-}
-
-/// 2^p of each column: of its own frequencies where three meshes have it, else of the first.
-std::vector<double> ratios_of(const fem::ModalBasis& fine, const Matches& in_coarse,
-                              const fem::ModalBasis& coarse, const Matches& in_coarsest,
-                              const fem::ModalBasis& coarsest, double first) {
-  std::vector<double> ratios(in_coarse.size(), first);
+/// Of the frequencies of each, where three meshes have its shape and they converge.
+Ratios ratios_of(const fem::ModalBasis& fine, const Matches& in_coarse,
+                 const fem::ModalBasis& coarse, const Matches& in_coarsest,
+                 const fem::ModalBasis& coarsest) {
+  Ratios ratios(in_coarse.size());
   for (std::size_t i = 0; i < ratios.size(); ++i) {
     const Eigen::Index j = in_coarse[i].column;
-    if (j < 0) continue;
-    const Eigen::Index k = in_coarsest[static_cast<std::size_t>(j)].column;
+    const Eigen::Index k = j < 0 ? -1 : in_coarsest[static_cast<std::size_t>(j)].column;
     if (k < 0) continue;
-    ratios[i] = observed_ratio(fine.frequency[static_cast<Eigen::Index>(i)], coarse.frequency[j],
-                               coarsest.frequency[k]);
+    const ThreeFrequencies own{fine.frequency[static_cast<Eigen::Index>(i)], coarse.frequency[j],
+                               coarsest.frequency[k]};
+    if (converges(own)) ratios[i] = observed_ratio(own.fine, own.coarse, own.coarsest);
   }
   return ratios;
 }
 
-/// The bases of three meshes: those of h and 2h are extrapolated.
-void extrapolate(fem::ModalBasis& fine, const Interpolation& to_fine, fem::ModalBasis& coarse,
-                 const Interpolation& to_coarse, const fem::ModalBasis& coarsest, double first) {
+/// @param coarse  shapes at the nodes of the fine mesh.
+void extrapolate(fem::ModalBasis& fine, const fem::ModalBasis& coarse, const Matches& same,
+                 const Ratios& ratios) {
+  for (std::size_t n = 0; n < same.size(); ++n) {
+    if (same[n].column < 0 || !ratios[n]) continue;
+    const auto i = static_cast<Eigen::Index>(n);
+    const Eigen::Index j = same[n].column;
+    const double share = 1.0 / (*ratios[n] - 1.0);
+    const double square = std::pow(fine.frequency[i], 2);
+    const double limit = square + share * (square - std::pow(coarse.frequency[j], 2));
+    fine.frequency[i] = std::sqrt(limit);  // converges(): most of ω² is left
+    fine.shapes.col(i) += share * (fine.shapes.col(i) - same[n].sign * coarse.shapes.col(j));
+  }
+}
+
+/// The bases of three meshes: those of h and 2h are extrapolated, the same columns of both.
+/// @return whether the first mode is among them.
+bool extrapolate(fem::ModalBasis& fine, const Interpolation& to_fine, fem::ModalBasis& coarse,
+                 const Interpolation& to_coarse, const fem::ModalBasis& coarsest) {
   const fem::ModalBasis coarse_at_fine = at_nodes(to_fine, coarse);
   const fem::ModalBasis coarsest_at_coarse = at_nodes(to_coarse, coarsest);
   const Matches in_coarse = matches(fine, coarse_at_fine);
   const Matches in_coarsest = matches(coarse, coarsest_at_coarse);
-  const std::vector<double> ratios =
-      ratios_of(fine, in_coarse, coarse, in_coarsest, coarsest, first);
-  std::vector<double> ratios_of_coarse(in_coarsest.size(), first);
+  const Ratios ratios = ratios_of(fine, in_coarse, coarse, in_coarsest, coarsest);
+  Ratios ratios_of_coarse(in_coarsest.size());
   for (std::size_t i = 0; i < ratios.size(); ++i) {
     const Eigen::Index j = in_coarse[i].column;
     if (j >= 0) ratios_of_coarse[static_cast<std::size_t>(j)] = ratios[i];
   }
   extrapolate(fine, coarse_at_fine, in_coarse, ratios);
   extrapolate(coarse, coarsest_at_coarse, in_coarsest, ratios_of_coarse);
+  return ratios.front().has_value();
 }
 
-/// Modes, and those with more attachment shapes.
-void extrapolate(SolvedStructure& fine, SolvedStructure& coarse, const SolvedStructure& coarsest,
-                 double first) {
+/// Modes, and those with more attachment shapes. @return whether the first mode is extrapolated.
+bool extrapolate(SolvedStructure& fine, SolvedStructure& coarse, const SolvedStructure& coarsest) {
   const Interpolation to_fine = mesh::interpolation(coarse.mesh, fine.mesh.nodes());
   const Interpolation to_coarse = mesh::interpolation(coarsest.mesh, coarse.mesh.nodes());
-  extrapolate(fine.modes.basis, to_fine, coarse.modes.basis, to_coarse, coarsest.modes.basis,
-              first);
-  if (!fine.modes.richer || !coarse.modes.richer || !coarsest.modes.richer) return;
-  extrapolate(fine.modes.richer->basis, to_fine, coarse.modes.richer->basis, to_coarse,
-              coarsest.modes.richer->basis, first);
+  std::optional<fem::RicherBasis>& richer = fine.modes.richer;
+  if (richer && coarse.modes.richer && coarsest.modes.richer) {
+    extrapolate(richer->basis, to_fine, coarse.modes.richer->basis, to_coarse,
+                coarsest.modes.richer->basis);
+  } else {
+    richer.reset();  // what more shapes change would be told with the error of the mesh
+  }
+  return extrapolate(fine.modes.basis, to_fine, coarse.modes.basis, to_coarse,
+                     coarsest.modes.basis);
 }
 
-/// Falling, each step smaller than the one before, and small already.
-bool converges(double fine, double coarse, double coarsest) {
-  constexpr double small = 0.03;  // of the frequency: elements larger than parts of the body
-  const double step = coarse - fine;
-  return step > 0.0 && step < coarsest - coarse && step < small * fine;
-}
-
-std::string text_of(double size, double fine, double coarse, double coarsest, double limit) {
-  constexpr double turn = 2.0 * std::numbers::pi;
+std::string text_of(double size, const ThreeFrequencies& first) {
   return fmt::format(
       "first frequency {:.6g} Hz on elements of {:.3g} mm, {:.6g} on {:.3g} mm, {:.6g} on {:.3g} "
-      "mm: modes are extrapolated to no size, the first to {:.6g} Hz",
-      fine / turn, 1e3 * size, coarse / turn, 2e3 * size, coarsest / turn, 4e3 * size,
-      limit / turn);
+      "mm",
+      first.fine / turn, 1e3 * size, first.coarse / turn, 2e3 * size, first.coarsest / turn,
+      4e3 * size);
 }
 
 }  // namespace
@@ -176,25 +189,34 @@ double observed_ratio(double fine, double coarse, double coarsest) {
   return std::isfinite(ratio) ? std::clamp(ratio, lowest_ratio, highest_ratio) : lowest_ratio;
 }
 
-void extrapolate_modes(SolvedStructure& structure, const SceneDescription& scene) {
+std::string extrapolate_modes(SolvedStructure& structure, const SceneDescription& scene) {
   const fem::ModalBasis& basis = structure.modes.basis;
-  if (!is_extrapolated(scene) || basis.n_rigid_body > 0) return;
+  if (!is_extrapolated(scene)) return {};
+  if (cut_short()) return "modes are not extrapolated: out of time";
+  if (basis.n_rigid_body > 0) return "modes are not extrapolated: the body is not held";
   try {
     const auto coarser = std::make_shared<CoarserMeshes>(
         CoarserMeshes{.twice = on_larger_elements(scene, 2.0, basis.n_free())});
     const SolvedStructure four_times = on_larger_elements(scene, 4.0, basis.n_free());
-    const double fine = basis.frequency[0];
-    const double coarse = coarser->twice.modes.basis.frequency[0];
-    const double coarsest = four_times.modes.basis.frequency[0];
-    if (!converges(fine, coarse, coarsest)) return;
-    coarser->ratio = observed_ratio(fine, coarse, coarsest);
-    extrapolate(structure, coarser->twice, four_times, coarser->ratio);
-    coarser->text = text_of(*element_size_of(scene), fine, coarse, coarsest,
-                            structure.modes.basis.frequency[0]);
+    const ThreeFrequencies first{basis.frequency[0], coarser->twice.modes.basis.frequency[0],
+                                 four_times.modes.basis.frequency[0]};
+    const std::string text = text_of(*element_size_of(scene), first);
+    if (!converges(first)) return text + ": they are too far apart to be extrapolated";
+    coarser->ratio = observed_ratio(first.fine, first.coarse, first.coarsest);
+    SolvedStructure limit = structure;
+    if (!extrapolate(limit, coarser->twice, four_times)) {
+      return text + ": modes are not extrapolated, the first has another shape on each mesh";
+    }
+    structure = std::move(limit);
+    coarser->text = fmt::format("{}: modes are extrapolated to no size, the first to {:.6g} Hz",
+                                text, structure.modes.basis.frequency[0] / turn);
     structure.coarser = coarser;
+    return coarser->text;
   } catch (const InterruptedError&) {
     throw;
-  } catch (const std::exception&) {  // the error of the mesh is told as it is without
+  } catch (const std::exception& error) {  // the error of the mesh is told as it is without
+    return fmt::format("modes are not extrapolated: on elements of two and four times the size: {}",
+                       error.what());
   }
 }
 

@@ -5,8 +5,10 @@
 ///
 ///   x = x_h + (x_h − x_2h) / (2^p − 1),    2^p = (ω_4h − ω_2h) / (ω_2h − ω_h)
 ///
-/// for ω² and the shape of every mode that the mesh of 2h has as well. 2^p is that of the first
-/// frequency, between 2 (re-entrant edges) and 16 (smooth fields, quadratic elements).
+/// for ω² and the shape of every mode and attachment shape that the meshes of 2h and 4h have
+/// too and whose frequencies converge, with 2^p of its own between 2 (re-entrant edges) and 16
+/// (smooth fields, quadratic elements). Others stay; so do residual flexibility and a static
+/// preload.
 ///
 /// Source: Richardson, The deferred approach to the limit, Phil. Trans. R. Soc. A 226 (1927)
 /// 299–361.
@@ -21,8 +23,8 @@ namespace microslip::pipelines {
 
 struct CoarserMeshes {
   SolvedStructure twice;  ///< of 2h, extrapolated likewise from 4h
-  double ratio = 2.0;     ///< 2^p
-  std::string text;       ///< for the log
+  double ratio = 2.0;     ///< 2^p of the first frequency
+  std::string text{};     ///< what was done, for the log
 };
 
 /// Where an accuracy is asked for and the geometry is meshed here, unless
@@ -40,6 +42,8 @@ struct CoarserMeshes {
 /// Leaves them where the scene does not ask for it, the coarser meshes cannot be solved, or their
 /// first frequencies do not fall towards that of the fine one.
 /// @param structure  mesh and modes of the scene.
-void extrapolate_modes(SolvedStructure& structure, const SceneDescription& scene);
+/// @return what was done, or why it was not, for the log; empty: the scene does not ask for it.
+/// @throws InterruptedError
+std::string extrapolate_modes(SolvedStructure& structure, const SceneDescription& scene);
 
 }  // namespace microslip::pipelines

@@ -56,7 +56,6 @@ class ModalEnclosure {
   Eigen::VectorXd lambda_, c_;    // diagonals
   Eigen::VectorXcd load_;         // Q̂
   Eigen::VectorXd load_error_;    // of it
-  Eigen::VectorXd cancelled_;     // of λ_j, by rounding of the sum
   Eigen::MatrixXd of_stiffness_;  // |P| = of_stiffness + ω of_damping + ω² of_mass
   Eigen::MatrixXd of_damping_, of_mass_;
 };

@@ -121,14 +121,50 @@ TEST(Refinement, TheErrorOfTheMeshIsDoubtedWhereHarmonicsMoveThePeak) {
     return refinement(blade(), {budget({{"mesh", mesh}, {"harmonics", harmonics}})}, tolerance,
                       spent, left);
   };
-  const auto near = step_with(0.004, 0.0195);
-  const auto far = step_with(0.004, 0.1);
+  const auto near = step_with(0.006, 0.0195);
+  const auto far = step_with(0.006, 0.1);
   ASSERT_TRUE(near && far);
   EXPECT_FALSE(near->new_mesh) << near->text;
   EXPECT_TRUE(far->new_mesh) << far->text;
   const auto out_of_reach = step_with(0.1, 0.1);
   ASSERT_TRUE(out_of_reach.has_value()) << "what comes as near as can be";
   EXPECT_TRUE(out_of_reach->new_mesh);
+}
+
+// The curve that is nearly exact enough waits for the next round, when the others are known better.
+TEST(Refinement, LargeErrorsAreNotRefinedToTheEndAtOnce) {
+  std::string left;
+  const std::vector<std::pair<std::string, double>> nearly{{"mesh", 0.004},
+                                                           {"second_direction", 0.017}};
+  const auto step =
+      refinement(blade(), {budget(nearly), budget({{"harmonics", 0.15}})}, tolerance, spent, left);
+  ASSERT_TRUE(step.has_value());
+  EXPECT_TRUE(step->only_harmonics) << step->text;
+  const auto alone = refinement(blade(), {budget(nearly)}, tolerance, spent, left);
+  ASSERT_TRUE(alone.has_value());
+  EXPECT_FALSE(alone->only_harmonics) << alone->text;
+}
+
+// What nothing can be done about does not make others wait.
+TEST(Refinement, RoughIsWhatCanBeRefined) {
+  std::string left;
+  const auto step = refinement(blade(), {budget({{"basis", 0.4}}), budget({{"mesh", 0.09}})},
+                               tolerance, spent, left);
+  ASSERT_TRUE(step.has_value());
+  EXPECT_TRUE(step->new_mesh);
+  EXPECT_EQ(left, "basis");
+}
+
+// Of modes extrapolated the next term is left: elements of the same size leave less.
+TEST(Refinement, OfExtrapolatedModesLargerElementsAreEnough) {
+  std::string left;
+  SpentSeconds extrapolated = spent;
+  extrapolated.extrapolated = true;
+  const std::vector<CurveBudget> told{budget({{"mesh", 0.05}})};
+  const auto usual = refinement(blade(), told, tolerance, spent, left);
+  const auto step = refinement(blade(), told, tolerance, extrapolated, left);
+  ASSERT_TRUE(usual && step);
+  EXPECT_LT(step->seconds, usual->seconds);
 }
 
 TEST(Refinement, WhatCannotBeRefinedDoesNotMakeTheRestDear) {
