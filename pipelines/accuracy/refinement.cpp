@@ -252,7 +252,11 @@ class Plans {
     extend({}, 0);
   }
 
-  [[nodiscard]] const Plan& cheapest() const { return cheapest_; }
+  /// The cheapest that is enough; where there is no time for it, the one that leaves least.
+  [[nodiscard]] const Plan& best() const {
+    const bool has_time = cheapest_.seconds <= spent_.available;
+    return has_time || affordable_.moves.empty() ? cheapest_ : affordable_;
+  }
 
  private:
   static double least_of(const Errors& errors, const std::map<std::string, Moves>& moves,
@@ -295,11 +299,23 @@ class Plans {
     const double again =
         only_harmonics ? spent_.inexact_curves.value_or(spent_.curves) : spent_.curves;
     plan.seconds = structure * spent_.structure + curves * again;
+    const bool does_nothing =
+        std::ranges::all_of(plan.moves, [](const auto& one) { return one.second->text.empty(); });
+    if (!does_nothing && plan.seconds <= spent_.available) offer(plan);
     if (!(plan.seconds < cheapest_.seconds)) return;
     for (std::size_t i = 0; i < errors_.size(); ++i) {
       if (bar_after(errors_[i], plan, doubt_) > bounds_[i]) return;
     }
     cheapest_ = std::move(plan);
+  }
+
+  /// One that there is time for.
+  void offer(const Plan& plan) {
+    double largest = 0.0;
+    for (const Errors& one : errors_) largest = std::max(largest, bar_after(one, plan, doubt_));
+    if (!(largest < least_left_)) return;
+    least_left_ = largest;
+    affordable_ = plan;
   }
 
   const std::vector<Errors>& errors_;
@@ -308,6 +324,8 @@ class Plans {
   std::vector<std::pair<std::string, const Moves*>> sources_;
   std::vector<double> bounds_;
   Plan cheapest_;
+  Plan affordable_;
+  double least_left_ = none;  ///< by that
 };
 
 /// Some bar that is above the tolerance becomes smaller by what is worth a round.
@@ -388,7 +406,7 @@ std::optional<Refinement> refinement(const SceneDescription& scene,
   left = stuck_sources(moves, errors, tolerance);
   const double doubt = doubt_of(spent);
   const Plans plans(errors, moves, spent, tolerance, doubt);
-  const Plan& plan = plans.cheapest();
+  const Plan& plan = plans.best();
   Refinement result{.scene = scene, .text = {}, .seconds = plan.seconds};
   result.only_harmonics = true;
   std::vector<std::string> texts;

@@ -3,6 +3,7 @@
 /// asked for.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,6 +30,7 @@ struct SpentSeconds {
   /// change. Empty: all.
   std::optional<double> inexact_curves{};
   bool extrapolated = false;  ///< the modes: the error of the mesh falls faster
+  double available = std::numeric_limits<double>::infinity();  ///< time there is for a round
 };
 
 /// The largest bar of all budgets, of amplitude or frequency; infinite where one has none,

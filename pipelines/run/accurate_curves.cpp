@@ -24,6 +24,7 @@ SpentSeconds spent_on(const Solution& solution) {
   // Mesh and modes may come from the cache: what they took is told by their size.
   constexpr double per_freedom = 1.5e-4;
   SpentSeconds spent;
+  spent.available = seconds_to_work();
   if (solution.structure) {
     spent.structure = per_freedom * static_cast<double>(solution.structure->modes.n_dofs);
     spent.extrapolated = solution.structure->coarser != nullptr;

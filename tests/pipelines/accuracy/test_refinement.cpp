@@ -167,6 +167,22 @@ TEST(Refinement, OfExtrapolatedModesLargerElementsAreEnough) {
   EXPECT_LT(step->seconds, usual->seconds);
 }
 
+TEST(Refinement, WithLittleTimeDoesWhatThereIsTimeFor) {
+  std::string left;
+  const std::vector<CurveBudget> told{budget({{"harmonics", 0.5}, {"mesh", 0.08}})};
+  const auto all = refinement(blade(), told, tolerance, spent, left);
+  ASSERT_TRUE(all.has_value());
+  EXPECT_TRUE(all->new_mesh);
+  SpentSeconds hurried = spent;
+  hurried.structure = 100.0 * spent.structure;
+  hurried.curves = 0.01 * spent.curves;
+  hurried.available = spent.structure;
+  const auto step = refinement(blade(), told, tolerance, hurried, left);
+  ASSERT_TRUE(step.has_value());
+  EXPECT_TRUE(step->only_harmonics) << step->text;
+  EXPECT_LE(step->seconds, hurried.available);
+}
+
 TEST(Refinement, WhatCannotBeRefinedDoesNotMakeTheRestDear) {
   std::string left;
   const std::vector<CurveBudget> told{
