@@ -231,8 +231,8 @@ double bar_after(const Errors& errors, const Plan& plan, double doubt) {
 class Plans {
  public:
   Plans(const std::vector<Errors>& errors, const std::map<std::string, Moves>& moves,
-        const SpentSeconds& spent, double tolerance, double doubt)
-      : errors_(errors), spent_(spent), doubt_(doubt) {
+        const SpentSeconds& spent, double tolerance)
+      : errors_(errors), spent_(spent), doubt_(doubt_of(spent)) {
     for (const auto& [source, own] : moves) sources_.emplace_back(source, &own);
     // Where what cannot be refined is above the tolerance, what can be is brought below it.
     constexpr double beside = 0.5;  // of the tolerance
@@ -243,11 +243,11 @@ class Plans {
     for (const Errors& one : errors) {
       const double bar = bar_of(one);
       if (!std::isfinite(bar)) continue;
-      rough = std::max(rough, (bar - least_of(one, moves, doubt)) / ambition);
+      rough = std::max(rough, (bar - least_of(one, moves, doubt_)) / ambition);
     }
     for (const Errors& one : errors) {
       bounds_.push_back(
-          std::max({wanted * tolerance, least_of(one, moves, doubt) + beside * tolerance, rough}));
+          std::max({wanted * tolerance, least_of(one, moves, doubt_) + beside * tolerance, rough}));
     }
     extend({}, 0);
   }
@@ -404,8 +404,7 @@ std::optional<Refinement> refinement(const SceneDescription& scene,
   const std::map<std::string, Moves> moves =
       all_moves(scene, errors, tolerance, spent.extrapolated);
   left = stuck_sources(moves, errors, tolerance);
-  const double doubt = doubt_of(spent);
-  const Plans plans(errors, moves, spent, tolerance, doubt);
+  const Plans plans(errors, moves, spent, tolerance);
   const Plan& plan = plans.best();
   Refinement result{.scene = scene, .text = {}, .seconds = plan.seconds};
   result.only_harmonics = true;
@@ -417,7 +416,7 @@ std::optional<Refinement> refinement(const SceneDescription& scene,
     if (move->structure > 0.0) result.new_mesh = true;
     if (source != "harmonics") result.only_harmonics = false;
   }
-  if (texts.empty() || !gains(plan, errors, tolerance, doubt)) return std::nullopt;
+  if (texts.empty() || !gains(plan, errors, tolerance, doubt_of(spent))) return std::nullopt;
   result.text = fmt::format("{}", fmt::join(texts, ", "));
   return result;
 }

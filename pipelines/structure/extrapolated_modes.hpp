@@ -1,7 +1,7 @@
 /// @file
 /// Modes without most of the error of their mesh. Where edges are re-entrant, ω² errs in proportion
 /// to the size h of the elements, whatever their order: halving it halves the error and costs ten
-/// times as much. What meshes of 2h and 4h tell of it costs an eighth:
+/// times as much. Meshes of 2h and 4h tell most of it for less than that of h takes:
 ///
 ///   x = x_h + (x_h − x_2h) / (2^p − 1),    2^p = (ω_4h − ω_2h) / (ω_2h − ω_h)
 ///

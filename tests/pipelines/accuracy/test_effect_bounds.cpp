@@ -42,6 +42,22 @@ TEST(EffectBounds, TheDissipatedEnergyPutsNothingBack) {
   EXPECT_EQ(effects[0].objection, "");
 }
 
+// A tolerance is one of peaks: a flank that moves by more is objected to, and by twice as much the
+// effect is put back.
+TEST(EffectBounds, WhatMovesAFlankALittleIsObjectedToAndNotPutBack) {
+  const auto at = [](double change) {
+    return std::vector<ErrorRow>{
+        {"a", largest_indicator_goal, "second_direction", 0.5, ErrorKind::estimated, 0.1},
+        {"a", peak_amplitude_goal, "second_direction", 1e-3, ErrorKind::solved, 0.1},
+        {"a", amplitude_there_goal, "second_direction", change, ErrorKind::solved, 0.1}};
+  };
+  std::vector<EffectRecord> effects{left_out("second_direction")};
+  EXPECT_TRUE(missed_effects(at(1.5 * tolerance), tolerance, effects).empty());
+  EXPECT_FALSE(missed_effects(at(2.5 * tolerance), tolerance, effects).empty());
+  tell_bounds(at(1.5 * tolerance), tolerance, effects);
+  EXPECT_NE(effects[0].objection.find("3 %"), std::string::npos) << effects[0].objection;
+}
+
 TEST(EffectBounds, WhatMattersIsObjectedToAndWhatDoesNotAnswersTheIndicator) {
   const auto objection = [](double change) {
     std::vector<EffectRecord> effects{left_out("normal_motion", "the indicator says so")};
