@@ -17,6 +17,7 @@
 #include "fem/slepc_session.hpp"
 #include "pipelines/command_line/command_line.hpp"
 #include "pipelines/command_line/command_options.hpp"
+#include "pipelines/command_line/processor_kernels.hpp"
 #include "pipelines/commands.hpp"
 #include "pipelines/system/exit_code.hpp"
 #include "pipelines/system/little_memory.hpp"
@@ -121,6 +122,7 @@ int answer_on_ranks(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  start_with_kernels_of_processor(argv);
   std::signal(SIGXFSZ,
               SIG_IGN);  // a file that may not grow is an error of the writer, told as such
   prepare_for_little_memory();
