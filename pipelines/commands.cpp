@@ -215,8 +215,12 @@ int run_scene(Arguments& arguments, const Study& study) {
   const SceneDescription scene = begin_in(arguments.output, [&] { return scene_of(arguments); });
   if (arguments.resume) {
     if (const auto code = ended_run(arguments.output, scene.complete_toml)) {
-      std::cerr << fmt::format("{}: the run has come to its end: nothing to resume\n",
-                               arguments.output);
+      const bool had_no_time = *code == static_cast<int>(ExitCode::exhausted);
+      std::cerr << fmt::format("{}: the run has come to its end: nothing to resume{}\n",
+                               arguments.output,
+                               had_no_time ? "; with a longer --budget, and without --resume, it "
+                                             "takes what was finished from the cache"
+                                           : "");
       return *code;
     }
   }

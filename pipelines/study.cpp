@@ -8,6 +8,7 @@
 #include "pipelines/run/accurate_curves.hpp"
 #include "pipelines/run/best_value.hpp"
 #include "pipelines/run/curve_family.hpp"
+#include "pipelines/run/first_settings.hpp"
 #include "pipelines/run/missed_effects.hpp"
 #include "pipelines/run/model_stages.hpp"
 #include "pipelines/run/questions.hpp"
@@ -27,10 +28,11 @@ double degrees_of_freedom(const Solution& solution) {
 
 }  // namespace
 
-int run_study(const SceneDescription& scene, const RunOptions& options) {
-  begin_in(options.output, [&] { require_response(scene); });
-  begin_deadline(scene.accuracy.budget);
-  RunRecord record(scene, options);
+int run_study(const SceneDescription& asked, const RunOptions& options) {
+  begin_in(options.output, [&] { require_response(asked); });
+  begin_deadline(asked.accuracy.budget);
+  const SceneDescription scene = first_settings(asked);
+  RunRecord record(asked, options);
   const ResultCache cache(options.cache, [&](const auto& line) { record.progress().info(line); });
   return record.run([&] {
     Solution solution{.scene = scene, .structure = solved_structure(scene, record)};

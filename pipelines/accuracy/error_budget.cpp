@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <utility>
 #include <variant>
 
@@ -129,6 +130,12 @@ bool is_unsettled(const solver::ResponseCurve& curve) {
   });
 }
 
+/// Of a choice that did not end: told at all, and so small that the peak keeps its frequency.
+bool is_small_part(double left_out) {
+  constexpr double most = 0.1;
+  return left_out > 0.0 && left_out < most;
+}
+
 /// Given harmonics have been solved with more; of chosen ones the peak knows what is left out.
 /// @param is_told  the curve was solved with chosen harmonics,
 ///                 or more of them are known to do nothing.
@@ -144,7 +151,8 @@ void add_harmonics(CurveBudget& budget, const CurveResult& result,
     add_rows(budget, result.name, "harmonics", change, ErrorKind::solved, 0.0);
   } else if (!result.richer && !is_told) {
     budget.unknown.emplace_back("harmonics");
-  } else if (!result.richer && is_unsettled(result.curve) && peak.harmonics_left_out == 0.0) {
+  } else if (!result.richer && is_unsettled(result.curve) &&
+             !is_small_part(peak.harmonics_left_out)) {
     budget.unknown.emplace_back("harmonics");
   } else if (!result.richer) {
     add_rows(budget, result.name, "harmonics", of_amplitude_alone(budget, peak.harmonics_left_out),
@@ -188,6 +196,20 @@ const ErrorRow* largest_row(const std::vector<CurveBudget>& budgets, const std::
 }
 
 }  // namespace
+
+CurveBudget with_harmonics_of(CurveBudget before, const CurveBudget& now) {
+  constexpr const char* harmonics = "harmonics";
+  const auto are_told = [](const ErrorRow& row) { return row.source == harmonics; };
+  std::erase_if(before.rows, are_told);
+  std::ranges::copy_if(now.rows, std::back_inserter(before.rows), are_told);
+  std::erase(before.unknown, harmonics);
+  if (std::ranges::find(now.unknown, harmonics) != now.unknown.end()) {
+    before.unknown.emplace_back(harmonics);
+  }
+  before.dissipated_energy = now.dissipated_energy;
+  before.energy_ratio = now.energy_ratio;
+  return before;
+}
 
 void borrow_unknown(std::vector<CurveBudget>& budgets) {
   for (CurveBudget& budget : budgets) {

@@ -33,6 +33,11 @@ struct CurveBudget {
 [[nodiscard]] CurveBudget error_budget(const ReducedModel& model, const SceneDescription& scene,
                                        const RicherModels& richer, const CurveResult& result);
 
+/// Errors of a curve that got other harmonics alone, where there is no time to tell the others
+/// again: those of the curve before, but for the harmonics.
+/// @param now  has them, and what friction dissipates.
+[[nodiscard]] CurveBudget with_harmonics_of(CurveBudget before, const CurveBudget& now);
+
 /// Sources that one curve could not be followed with, or had no time for, and others could: the
 /// largest effect of those stands in for its own.
 void borrow_unknown(std::vector<CurveBudget>& budgets);

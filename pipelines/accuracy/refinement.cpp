@@ -18,6 +18,7 @@ namespace {
 constexpr double wanted = 0.9;            // of the tolerance: estimates are no better
 constexpr double closest_choice = 1e-5;   // of harmonics
 constexpr double step_on_the_way = 0.15;  // of the error of harmonics
+constexpr double usual_error = 0.3;       // of one harmonic, where it could not be told
 constexpr int most_points = 20000;        // of a patch
 constexpr double worth_a_round = 0.9;     // of the bar: less is gained
 constexpr double none = std::numeric_limits<double>::infinity();
@@ -72,8 +73,10 @@ Moves moves_of_harmonics(const SceneDescription& scene, double tolerance, double
   constexpr double anything = 1.0;
   const double before = given.chosen() ? given.tolerance : anything;
   double now = std::min(share_of_harmonics * tolerance, 0.5 * before);
-  const bool hurried = std::isfinite(scene.accuracy.budget) && std::isfinite(error);
-  if (hurried) now = std::max(now, std::min(step_on_the_way * error, 0.5 * before));
+  if (std::isfinite(scene.accuracy.budget)) {
+    const double step = step_on_the_way * std::min(error, usual_error);
+    now = std::max(now, std::min(step, 0.5 * before));
+  }
   Moves moves;
   for (int halving = 0; halving < 3; ++halving, now *= 0.5) {
     const double choice = std::max(now, closest_choice);
@@ -227,12 +230,20 @@ double bar_after(const Errors& errors, const Plan& plan, double doubt) {
   return bar;
 }
 
+/// Some bar that is above the tolerance becomes smaller by what is worth a round.
+bool gains(const Plan& plan, const std::vector<Errors>& errors, double tolerance, double doubt) {
+  return std::ranges::any_of(errors, [&](const Errors& one) {
+    const double before = bar_of(one);
+    return before > tolerance && bar_after(one, plan, doubt) < worth_a_round * before;
+  });
+}
+
 /// Every combination of moves; the cheapest that is enough.
 class Plans {
  public:
   Plans(const std::vector<Errors>& errors, const std::map<std::string, Moves>& moves,
         const SpentSeconds& spent, double tolerance)
-      : errors_(errors), spent_(spent), doubt_(doubt_of(spent)) {
+      : errors_(errors), spent_(spent), tolerance_(tolerance), doubt_(doubt_of(spent)) {
     for (const auto& [source, own] : moves) sources_.emplace_back(source, &own);
     // Where what cannot be refined is above the tolerance, what can be is brought below it.
     constexpr double beside = 0.5;  // of the tolerance
@@ -252,10 +263,13 @@ class Plans {
     extend({}, 0);
   }
 
-  /// The cheapest that is enough; where there is no time for it, the one that leaves least.
+  /// The cheapest that is enough; where there is no time for it, the one that leaves least, if that
+  /// is worth a round.
   [[nodiscard]] const Plan& best() const {
     const bool has_time = cheapest_.seconds <= spent_.available;
-    return has_time || affordable_.moves.empty() ? cheapest_ : affordable_;
+    const bool has_other =
+        !affordable_.moves.empty() && gains(affordable_, errors_, tolerance_, doubt_);
+    return has_time || !has_other ? cheapest_ : affordable_;
   }
 
  private:
@@ -320,6 +334,7 @@ class Plans {
 
   const std::vector<Errors>& errors_;
   SpentSeconds spent_;
+  double tolerance_;
   double doubt_;
   std::vector<std::pair<std::string, const Moves*>> sources_;
   std::vector<double> bounds_;
@@ -327,14 +342,6 @@ class Plans {
   Plan affordable_;
   double least_left_ = none;  ///< by that
 };
-
-/// Some bar that is above the tolerance becomes smaller by what is worth a round.
-bool gains(const Plan& plan, const std::vector<Errors>& errors, double tolerance, double doubt) {
-  return std::ranges::any_of(errors, [&](const Errors& one) {
-    const double before = bar_of(one);
-    return before > tolerance && bar_after(one, plan, doubt) < worth_a_round * before;
-  });
-}
 
 /// Every source that a bar has, and what can be done with it;
 /// to leave it is the first of its moves.

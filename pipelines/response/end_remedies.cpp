@@ -55,9 +55,11 @@ constexpr std::array ends_of_curves{
                "force, stable or not; with more modes.damping_ratio, of kind modal "
                "modal.damping_ratio, motions settle sooner",
                ""},
-    EndOfCurve{Diagnosis::interrupted,
-               "the same command with --resume goes on; where --budget has ended it, give more",
-               ""},
+    EndOfCurve{
+        Diagnosis::interrupted,
+        "the same command with --resume goes on; where --budget has ended it, the same with more "
+        "of it and without --resume, from the cache",
+        ""},
 };
 
 struct EndOfSearch {

@@ -444,7 +444,11 @@ CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene
   if (is_over) return result;
   const auto* load = std::get_if<double>(&result.load);
   if (load != nullptr && !result.integrated) {
-    check_harmonics(model, scene, *load, result, [&limit] { return limit.is_over(); });
+    // Other curves want to begin before a budget ends.
+    constexpr double share = 0.1;
+    const TimeLimit of_check(share * scene.accuracy.budget);
+    check_harmonics(model, scene, *load, result,
+                    [&] { return limit.is_over() || of_check.is_over(); });
   }
   return result;
 }

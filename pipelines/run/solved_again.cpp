@@ -36,6 +36,38 @@ std::vector<std::size_t> curves_to_solve(const Solution& before, const Refinemen
   return again;
 }
 
+/// Solved to its end with the harmonics of a step, though the time was over before others were.
+bool is_finished(const solver::ResponseCurve& curve) {
+  const bool kept_few = std::ranges::any_of(curve.log, [](const solver::SolverEvent& event) {
+    return event.remedy == solver::Remedy::harmonics_kept;
+  });
+  return curve.complete && !kept_few;
+}
+
+/// Of a round whose time was over in the middle: the curves that it has finished.
+/// @return false: there are none, or they are of another model than those before.
+bool keep_finished(const Solution& before, const Refinement& step,
+                   const std::vector<std::size_t>& again, std::vector<CurveResult>& curves,
+                   Solution& now) {
+  if (!step.only_harmonics) return false;
+  now.curves = before.curves;
+  now.budgets = before.budgets;
+  bool any = false;
+  for (std::size_t i = 0; i < again.size(); ++i) {
+    const bool has_points = !curves[i].curve.points.empty();
+    if (!has_points || !is_finished(curves[i].curve)) continue;
+    const CurveBudget own = error_budget(now.model, now.scene, {}, curves[i]);
+    CurveBudget& budget = now.budgets[again[i]];
+    budget = with_harmonics_of(std::move(budget), own);
+    if (budget.has_bar()) {
+      curves[i].bar = bar_of(budget.rows, curves[i].name, peak_amplitude_goal);
+    }
+    now.curves[again[i]] = std::move(curves[i]);
+    any = true;
+  }
+  return any;
+}
+
 /// @return false: the time was over before its end.
 bool solve(const Solution& before, const Refinement& step, int jobs, Progress& progress,
            SolvedAgain& round) {
@@ -56,16 +88,17 @@ bool solve(const Solution& before, const Refinement& step, int jobs, Progress& p
   }
   std::vector<CurveResult> curves =
       trace_unkept(now.model, now.scene, requests, near, jobs, progress);
-  if (cut_short()) return false;
+  if (cut_short()) return keep_finished(before, step, again, curves, now);
   std::vector<CurveBudget> budgets =
       budgets_of(now.model, now.scene, now.structure.get(), jobs, curves, progress);
+  if (cut_short()) return keep_finished(before, step, again, curves, now);
   now.curves = before.curves;
   now.budgets = before.budgets;
   for (std::size_t i = 0; i < again.size(); ++i) {
     now.curves[again[i]] = std::move(curves[i]);
     now.budgets[again[i]] = std::move(budgets[i]);
   }
-  return !cut_short();
+  return true;
 }
 
 /// Effects that are left out and may have no bound, with the reason it would have.

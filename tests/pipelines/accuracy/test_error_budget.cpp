@@ -52,6 +52,21 @@ TEST(ErrorBudget, WhatNoCurveKnowsStaysUnknown) {
   EXPECT_FALSE(budgets[2].has_bar());
 }
 
+TEST(ErrorBudget, OtherHarmonicsLeaveTheOtherErrorsAsTheyAre) {
+  CurveBudget before = budget("a", "mesh", 0.01, -0.008);
+  before.unknown = {"basis", "harmonics"};
+  CurveBudget now = budget("a", "harmonics", 0.002, 0.0);
+  now.dissipated_energy = 3.0;
+  const CurveBudget both = with_harmonics_of(before, now);
+  EXPECT_TRUE(both.has_bar());
+  EXPECT_EQ(both.unknown, std::vector<std::string>{"basis"});
+  EXPECT_DOUBLE_EQ(both.dissipated_energy, 3.0);
+  const double mesh = bar_of(before.rows, "a", peak_amplitude_goal);
+  EXPECT_DOUBLE_EQ(bar_of(both.rows, "a", peak_amplitude_goal),
+                   mesh + bar_of(now.rows, "a", peak_amplitude_goal));
+  EXPECT_FALSE(with_harmonics_of(both, lacking("a", "harmonics")).has_bar());
+}
+
 struct Traced {
   CurveResult curve;
   CurveBudget budget;

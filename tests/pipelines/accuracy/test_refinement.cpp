@@ -183,6 +183,34 @@ TEST(Refinement, WithLittleTimeDoesWhatThereIsTimeFor) {
   EXPECT_LE(step->seconds, hurried.available);
 }
 
+// A round that there is time for, and that leaves nearly all, is no reason to be silent about what
+// would be needed.
+TEST(Refinement, NamesTheRoundThatThereIsNoTimeFor) {
+  std::string left;
+  const std::vector<CurveBudget> told{budget({{"harmonics", 0.08}, {"fit", 0.005}})};
+  SpentSeconds hurried = spent;
+  hurried.available = 1.5 * spent.curves;
+  const auto step = refinement(blade(), told, tolerance, hurried, left);
+  ASSERT_TRUE(step.has_value());
+  EXPECT_TRUE(step->scene.settings.harmonics.chosen()) << step->text;
+  EXPECT_GT(step->seconds, hurried.available);
+}
+
+// With a budget of time the first choice is a step on the way, told errors or not.
+TEST(Refinement, WithABudgetUnknownHarmonicsAreChosenRoughlyFirst) {
+  std::string left;
+  CurveBudget lost = budget({{"cells", 1e-4}});
+  lost.unknown.emplace_back("harmonics");
+  SceneDescription hurried = blade();
+  hurried.accuracy.budget = 60.0;
+  const auto step = refinement(hurried, {lost}, tolerance, spent, left);
+  const auto unhurried = refinement(blade(), {lost}, tolerance, spent, left);
+  ASSERT_TRUE(step && unhurried);
+  EXPECT_GT(step->scene.settings.harmonics.tolerance,
+            unhurried->scene.settings.harmonics.tolerance);
+  EXPECT_LT(step->scene.settings.harmonics.tolerance, 0.1);
+}
+
 TEST(Refinement, WhatCannotBeRefinedDoesNotMakeTheRestDear) {
   std::string left;
   const std::vector<CurveBudget> told{

@@ -1,0 +1,30 @@
+#include "pipelines/run/first_settings.hpp"
+
+#include <cmath>
+
+#include "pipelines/effects/curve_cost.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+constexpr int several = 9;    // of the default blade: peaks right to some per cent
+constexpr double half = 0.5;  // of the budget: what is left refines what is told
+
+double seconds_of_curves(const SceneDescription& scene) {
+  const bool along_r = scene.settings.second_direction == Discretisation::Choice::on;
+  const ResponseSeconds seconds = response_seconds(scene, curve_effects(scene, along_r));
+  return seconds.curves + seconds.errors;
+}
+
+}  // namespace
+
+SceneDescription first_settings(SceneDescription scene) {
+  const double budget = scene.accuracy.budget;
+  const bool by_time = std::isfinite(budget) && scene.accuracy.tolerance > 0.0;
+  if (!by_time || !scene.settings.harmonics.chosen()) return scene;
+  scene.settings.harmonics = {.highest = several};
+  if (!(seconds_of_curves(scene) < half * budget)) scene.settings.harmonics = {.highest = 1};
+  return scene;
+}
+
+}  // namespace microslip::pipelines
