@@ -350,15 +350,37 @@ solver::ResponseCurve balanced_curve(const ReducedModel& model, const SceneDescr
              : solver::trace_response(problem, options, observe);
 }
 
+/// What a curve may take: where a run has a budget no more than leaves some of it for the others.
+struct CurveTime {
+  double seconds;
+  std::string_view name;
+  std::string_view remedy;
+  bool is_share = false;  ///< of what all curves may take
+};
+
+CurveTime time_of_curve(const SceneDescription& scene) {
+  const CurveTime own{scene.response->time_budget, "response.time_budget", remedy_of_time()};
+  const std::size_t n = curve_requests(scene).size();
+  const double share = scene.accuracy.budget / static_cast<double>(std::max<std::size_t>(n, 1));
+  if (n < 2 || !(share < own.seconds)) return own;
+  return {share, "its share of accuracy.budget", "give more of it, or ask for fewer curves", true};
+}
+
 /// That its time was over is why it has no end, where nothing else has stopped it.
 /// @return  whether it is.
-bool tell_time_is_over(double budget, solver::ResponseCurve& curve) {
+bool tell_time_is_over(const CurveTime& time, solver::ResponseCurve& curve) {
   if (curve.diagnosis != solver::Diagnosis::interrupted) return false;
   if (interrupt_requested() || cut_short()) return false;
   curve.diagnosis = solver::Diagnosis::budget;
-  curve.message = fmt::format("{}{}response.time_budget, {:g} s, is over", curve.message,
-                              curve.message.empty() ? "" : ": ", budget);
+  curve.message = fmt::format("{}{}{}, {:.4g} s, is over", curve.message,
+                              curve.message.empty() ? "" : ": ", time.name, time.seconds);
   return true;
+}
+
+/// One harmonic, for a curve that with several takes more than its share of a budget: all of it.
+SceneDescription with_one_harmonic(SceneDescription scene) {
+  scene.settings.harmonics = {.highest = 1};
+  return scene;
 }
 
 solver::ResponseCurve linear_curve(const ReducedModel& model, LimitName limit,
@@ -430,23 +452,24 @@ solver::ResponseCurve limit_curve(const ReducedModel& model, const SceneDescript
 CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene,
                         const CurveRequest& request, const solver::PointObserver& observe,
                         const solver::ResponseCurve* near) {
-  const double budget = scene.response->time_budget;
-  const TimeLimit limit(budget);
+  const CurveTime time = time_of_curve(scene);
+  const TimeLimit limit(time.seconds);
   solver::ContinuationOptions options = continuation_options(scene, model);
   options.stop = [&limit, stop = options.stop] { return limit.is_over() || stop(); };
   const auto within = [&](const auto& point) { return !limit.is_over() && observe(point); };
   CurveResult result = traced(model, scene, request, within, options, near);
   const bool is_over = limit.is_over();
-  const bool by_time = is_over && tell_time_is_over(budget, result.curve);
-  tell_remedy(
-      by_time ? remedy_of_time() : remedy_of(result.curve.diagnosis, scene.response->method),
-      result.curve);
+  if (is_over && time.is_share && scene.settings.harmonics.highest > 1 && !result.integrated) {
+    CurveResult lean = trace_curve(model, with_one_harmonic(scene), request, observe, near);
+    if (lean.curve.complete) return lean;
+  }
+  const bool by_time = is_over && tell_time_is_over(time, result.curve);
+  tell_remedy(by_time ? time.remedy : remedy_of(result.curve.diagnosis, scene.response->method),
+              result.curve);
   if (is_over) return result;
   const auto* load = std::get_if<double>(&result.load);
   if (load != nullptr && !result.integrated) {
-    // Other curves want to begin before a budget ends.
-    constexpr double share = 0.1;
-    const TimeLimit of_check(share * scene.accuracy.budget);
+    const TimeLimit of_check(share_of_check * scene.accuracy.budget);
     check_harmonics(model, scene, *load, result,
                     [&] { return limit.is_over() || of_check.is_over(); });
   }

@@ -82,6 +82,10 @@ void check_harmonics(
     ReducedModel model, const SceneDescription& scene, double load, CurveResult& result,
     const std::function<bool()>& stop = [] { return false; });
 
+/// Of accuracy.budget, what one curve may take to be checked with more harmonics: other curves want
+/// to begin before it ends.
+inline constexpr double share_of_check = 0.1;
+
 struct CurveMaps {
   std::vector<NamedMap> maps;
   std::vector<std::string> missing;  ///< which map there is not, why, and what to set

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <iterator>
+#include <limits>
 #include <mutex>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -45,6 +48,20 @@ void stop_if_interrupted(const std::string& kept) {
                          " are kept: the same command with --resume goes on");
 }
 
+/// In which order curves are solved: with a budget the cheap ones first, linear limits and high
+/// preloads, so that there are as many as can be when it is over.
+std::vector<std::size_t> order_of(const std::vector<CurveRequest>& requests, double budget) {
+  std::vector<std::size_t> order(requests.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (!std::isfinite(budget)) return order;
+  const auto price = [&](std::size_t i) {
+    const auto* load = std::get_if<double>(&requests[i].load);
+    return load != nullptr ? -*load : -std::numeric_limits<double>::infinity();
+  };
+  std::ranges::stable_sort(order, {}, price);
+  return order;
+}
+
 void tell_shares(const std::vector<int>& solved, Progress& progress) {
   if (solved.size() == 1) return;
   progress.info(fmt::format("curves solved on each MPI rank: {}", fmt::join(solved, ", ")));
@@ -58,11 +75,13 @@ std::vector<CurveResult> trace_family(const ReducedModel& model, const SceneDesc
   if (requests.empty()) return {};
   const KeptResults kept_results(model, scene);
   std::vector<CurveResult> results(requests.size());
-  std::mutex order;
+  const std::vector<std::size_t> order = order_of(requests, scene.accuracy.budget);
+  std::mutex keeping;
   std::vector<bool> finished(requests.size(), false);
   std::size_t kept = 0;
   std::atomic<std::size_t> done{0};
-  const auto trace = [&](std::size_t i, const CurveSolver& solve) {
+  const auto trace = [&](std::size_t place, const CurveSolver& solve) {
+    const std::size_t i = order[place];
     stop_if_interrupted("points");
     const auto observe = [&](const solver::ResponsePoint& point) {
       record.note_point(requests[i].name, load_of(requests[i], model), point);
@@ -78,16 +97,19 @@ std::vector<CurveResult> trace_family(const ReducedModel& model, const SceneDesc
       results[i] = std::move(*earlier);
     } else {
       const TimeLimit limit(scene.response->time_budget);
+      const TimeLimit of_check(share_of_check * scene.accuracy.budget);
       results[i] = solve(requests[i], observe, nullptr);
       // Else it may be cut short, or have fewer harmonics than it was to have.
       if (!interrupt_requested() && !time_is_short()) {
         record.keep_finished(results[i]);
         // With more time it may have had its harmonics checked, or other solutions beside it.
-        if (!limit.is_over()) kept_results.keep(results[i]);
+        const bool had_time = results[i].curve.diagnosis != solver::Diagnosis::budget &&
+                              (results[i].richer || !of_check.is_over());
+        if (!limit.is_over() && had_time) kept_results.keep(results[i]);
       }
     }
     ++done;
-    const std::lock_guard lock(order);  // summary.json lists the curves in the scene's order
+    const std::lock_guard lock(keeping);  // summary.json lists the curves in the scene's order
     finished[i] = true;
     for (; kept < finished.size() && finished[kept]; ++kept) {
       record.keep_curve(results[kept], model);

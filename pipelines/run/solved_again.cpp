@@ -1,6 +1,7 @@
 #include "pipelines/run/solved_again.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <utility>
 
@@ -44,21 +45,24 @@ bool is_finished(const solver::ResponseCurve& curve) {
   return curve.complete && !kept_few;
 }
 
-/// Of a round whose time was over in the middle: the curves that it has finished.
-/// @return false: there are none, or they are of another model than those before.
-bool keep_finished(const Solution& before, const Refinement& step,
-                   const std::vector<std::size_t>& again, std::vector<CurveResult>& curves,
+/// Where other harmonics alone are asked for within a budget of time: curves that are not finished
+/// stay as they were, and if time was over before all errors were told again, so do the other
+/// errors.
+/// @param budgets  empty: there was no time for them.
+/// @return false: no curve is finished.
+bool keep_finished(const Solution& before, const std::vector<std::size_t>& again,
+                   std::vector<CurveResult>& curves, std::vector<CurveBudget> budgets,
                    Solution& now) {
-  if (!step.only_harmonics) return false;
-  now.curves = before.curves;
-  now.budgets = before.budgets;
+  const bool has_limit = std::isfinite(now.scene.accuracy.budget);
+  const bool is_late = cut_short();
   bool any = false;
   for (std::size_t i = 0; i < again.size(); ++i) {
-    const bool has_points = !curves[i].curve.points.empty();
-    if (!has_points || !is_finished(curves[i].curve)) continue;
-    const CurveBudget own = error_budget(now.model, now.scene, {}, curves[i]);
+    const bool was_finished = before.curves[again[i]].curve.complete;
+    if (has_limit && was_finished && !is_finished(curves[i].curve)) continue;
     CurveBudget& budget = now.budgets[again[i]];
-    budget = with_harmonics_of(std::move(budget), own);
+    budget = is_late ? with_harmonics_of(std::move(budget),
+                                         error_budget(now.model, now.scene, {}, curves[i]))
+                     : std::move(budgets[i]);
     if (budget.has_bar()) {
       curves[i].bar = bar_of(budget.rows, curves[i].name, peak_amplitude_goal);
     }
@@ -88,17 +92,19 @@ bool solve(const Solution& before, const Refinement& step, int jobs, Progress& p
   }
   std::vector<CurveResult> curves =
       trace_unkept(now.model, now.scene, requests, near, jobs, progress);
-  if (cut_short()) return keep_finished(before, step, again, curves, now);
-  std::vector<CurveBudget> budgets =
-      budgets_of(now.model, now.scene, now.structure.get(), jobs, curves, progress);
-  if (cut_short()) return keep_finished(before, step, again, curves, now);
+  if (cut_short() && !step.only_harmonics) return false;
   now.curves = before.curves;
   now.budgets = before.budgets;
+  std::vector<CurveBudget> budgets;
+  if (!cut_short()) {
+    budgets = budgets_of(now.model, now.scene, now.structure.get(), jobs, curves, progress);
+  }
+  if (step.only_harmonics) return keep_finished(before, again, curves, std::move(budgets), now);
   for (std::size_t i = 0; i < again.size(); ++i) {
     now.curves[again[i]] = std::move(curves[i]);
     now.budgets[again[i]] = std::move(budgets[i]);
   }
-  return true;
+  return !cut_short();
 }
 
 /// Effects that are left out and may have no bound, with the reason it would have.

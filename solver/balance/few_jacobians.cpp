@@ -36,6 +36,7 @@ class Corrector {
     NewtonResult at = nearby != nullptr ? brought_near(start, *nearby) : evaluated(start);
     for (int i = 0; i < most_jacobians && at.residual <= far; ++i) {
       if (at.residual <= tolerance_) return finished(std::move(at));
+      if (options_.is_stopped()) break;
       NewtonResult best = approached(at);
       if (best.residual <= tolerance_ && at.residual <= near) {
         best.evaluation.jacobian = std::move(at.evaluation.jacobian);
@@ -97,6 +98,7 @@ class Corrector {
     for (int i = 0; i < most_updates && best.residual > near && astray < most_astray; ++i) {
       std::optional<NewtonResult> next = stepped(method, here);
       if (!next || !(next->residual < rises_from_afar * best.residual)) break;
+      if (options_.is_stopped()) break;
       here = std::move(*next);
       astray = here.residual < falls_from_afar * best.residual ? 0 : astray + 1;
       if (here.residual < best.residual) best = here;

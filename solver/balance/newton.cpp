@@ -31,6 +31,7 @@ class Iteration {
     now_ = std::move(start);
     const double tolerance = std::max(options.tolerance, scaling_.rounding);
     for (int i = 0; i < options.max_iterations && now_.residual > tolerance; ++i) {
+      if (options.is_stopped()) break;
       if (!step(i)) break;
       ++now_.iterations;
     }

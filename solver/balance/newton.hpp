@@ -43,6 +43,9 @@ struct BranchVector {
 struct NewtonOptions {
   double tolerance = 1e-11;  ///< of ‖R‖ / scaling.residual; at least scaling.rounding
   int max_iterations = 15;   ///< 0: no step of Newton's method (few_jacobians.hpp)
+  /// Asked between steps, which of a fine patch take up to a second: true ends them, not converged.
+  const std::function<bool()>* stop = nullptr;
+  [[nodiscard]] bool is_stopped() const { return stop != nullptr && *stop && (*stop)(); }
 };
 
 class BranchFactors;

@@ -37,7 +37,8 @@ std::vector<Guess> guesses(const HarmonicBalance& balance, double frequency) {
 
 /// Follows the solutions from the linear limit (λ = 0) to the contact (λ = 1).
 NewtonResult follow_homotopy(HarmonicBalance& balance, const Guess& guess, double frequency,
-                             const NewtonOptions& options, StartPoint& count) {
+                             const NewtonOptions& options, const std::function<bool()>& stop,
+                             StartPoint& count) {
   const ParametricSystem system = [&](const Eigen::VectorXd& x, double share) {
     return balance.evaluate_homotopy(x, frequency, share, guess.stiffness);
   };
@@ -50,7 +51,7 @@ NewtonResult follow_homotopy(HarmonicBalance& balance, const Guess& guess, doubl
   if (!first.converged) return first;
   BranchWalker walker(system, rule, std::move(first), 1.0);
   NewtonResult last;
-  for (int i = 0; i < homotopy_steps && walker.advance(); ++i) {
+  for (int i = 0; i < homotopy_steps && !stop() && walker.advance(); ++i) {
     const double before = walker.before().solution.point.parameter;
     const double now = walker.now().solution.point.parameter;
     if (now < -1.0) break;
@@ -93,11 +94,13 @@ NewtonResult solve_at(HarmonicBalance& balance, const Eigen::VectorXd& guess, do
 }
 
 StartPoint find_start(HarmonicBalance& balance, double frequency, double tolerance,
-                      const Harmonics* near) {
+                      const Harmonics* near, const std::function<bool()>& stop) {
+  const std::function<bool()> stops = stop ? stop : [] { return false; };
   StartPoint start;
   NewtonOptions options;
   options.tolerance = tolerance;
   options.max_iterations = 40;
+  options.stop = &stops;
   const auto list = guesses(balance, frequency);
   const auto accept = [&](NewtonResult result, const std::string& way) {
     start.evaluations += result.evaluations;
@@ -112,18 +115,21 @@ StartPoint find_start(HarmonicBalance& balance, double frequency, double toleran
     return start;
   }
   for (const Guess& guess : list) {
+    if (stops()) break;
     if (accept(solve_at(balance, guess.x, frequency, options),
                std::string("Newton from the ") + guess.name + " response")) {
       return start;
     }
   }
-  if (!balance.scene().contact) return start;
+  start.is_stopped = stops();
+  if (!balance.scene().contact || start.is_stopped) return start;
   for (const Guess& guess : list) {
-    if (accept(follow_homotopy(balance, guess, frequency, options, start),
+    if (accept(follow_homotopy(balance, guess, frequency, options, stops, start),
                std::string("homotopy from the ") + guess.name + " response")) {
       return start;
     }
   }
+  start.is_stopped = stops();
   return start;
 }
 

@@ -218,7 +218,7 @@ ResponseCurve solve_at_frequency(const Scene& scene, double frequency,
   const HarmonicSet set = first_harmonics(scene, options);
   HarmonicBalance balance(scene, set);
   StartPoint start = find_start(balance, frequency, options.residual_tolerance,
-                                options.near_begin ? &*options.near_begin : nullptr);
+                                options.near_begin ? &*options.near_begin : nullptr, options.stop);
   ResponseCurve curve;
   curve.iterations = start.iterations;
   curve.contact_evaluations = start.evaluations;
@@ -229,8 +229,8 @@ ResponseCurve solve_at_frequency(const Scene& scene, double frequency,
     curve.complete = true;
     if (options.search_starts > 0) search_branches(scene, here, curve);
   } else {
-    curve.diagnosis = Diagnosis::no_start;
-    curve.message = "no solution found; tried " + start.way;
+    curve.diagnosis = start.is_stopped ? Diagnosis::interrupted : Diagnosis::no_start;
+    curve.message = start.is_stopped ? "stopped" : "no solution found; tried " + start.way;
   }
   curve.seconds = watch.seconds();
   return curve;

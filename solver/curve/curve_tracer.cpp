@@ -276,9 +276,11 @@ std::optional<CurveTracer::Restart> CurveTracer::restart(const BranchWalker& sta
     const bool plain =
         corrected.converged && !(came_from_there && on_the_branch(stalled.now(), corrected.point));
     if (!plain) {
-      StartPoint start = find_start(*balance_, frequency, options_.residual_tolerance);
+      StartPoint start =
+          find_start(*balance_, frequency, options_.residual_tolerance, nullptr, options_.stop);
       curve_.contact_evaluations += start.evaluations;
       curve_.iterations += start.iterations;
+      if (start.is_stopped) break;
       if (!start.solution) continue;
       if (came_from_there && on_the_branch(stalled.now(), start.solution->point)) continue;
       corrected = std::move(*start.solution);
@@ -312,10 +314,16 @@ ResponseCurve CurveTracer::follow(NewtonResult start, const HarmonicSet& set) {
 }
 
 ResponseCurve CurveTracer::run() {
-  StartPoint start = find_start(*balance_, options_.frequency_begin, options_.residual_tolerance,
-                                options_.near_begin ? &*options_.near_begin : nullptr);
+  StartPoint start =
+      find_start(*balance_, options_.frequency_begin, options_.residual_tolerance,
+                 options_.near_begin ? &*options_.near_begin : nullptr, options_.stop);
   curve_.iterations = start.iterations;
   curve_.contact_evaluations = start.evaluations;
+  if (start.is_stopped) {
+    stop(Diagnosis::interrupted,
+         at_hertz("stopped before its first point", options_.frequency_begin));
+    return finished();
+  }
   if (!start.solution) {
     stop(Diagnosis::no_start,
          at_hertz("no solution found", options_.frequency_begin) + "; tried " + start.way);

@@ -40,7 +40,7 @@ class Climb {
     now_ = *first;
     if (start_.place == PeakPlace::range_end) return result();
     for (int i = 0; i < most_steps; ++i) {
-      if (range_.stop && range_.stop()) return std::nullopt;
+      if (is_stopped()) return std::nullopt;
       if (std::abs(now_.slope) <= level) return result();
       (now_.slope > 0.0 ? rising_ : falling_) = now_;
       if (is_bracketed() && std::abs(falling_->way - rising_->way) < narrowest) return result();
@@ -50,12 +50,15 @@ class Climb {
   }
 
  private:
+  [[nodiscard]] bool is_stopped() const { return range_.stop && range_.stop(); }
+
   [[nodiscard]] bool is_bracketed() const { return rising_ && falling_; }
 
   [[nodiscard]] std::optional<Step> solved(const BranchVector& guess, const BranchVector& row,
                                            const BranchVector& tangent) {
-    const NewtonResult at = solve_balance(balance_, range_.corrector, guess, row, start_.scaling,
-                                          {.tolerance = tolerance}, nearby_.get());
+    const NewtonResult at =
+        solve_balance(balance_, range_.corrector, guess, row, start_.scaling,
+                      {.tolerance = tolerance, .stop = &range_.stop}, nearby_.get());
     work_.iterations += at.iterations;
     work_.contact_evaluations += at.evaluations;
     if (!at.converged) return std::nullopt;
@@ -92,6 +95,7 @@ class Climb {
     const double whole = length();
     for (double ahead = whole; std::abs(ahead) >= std::min(shortest_step, std::abs(whole));
          ahead *= 0.5) {
+      if (is_stopped()) return false;
       const BranchVector guess = moved(now_.point, now_.tangent, ahead, start_.scaling);
       std::optional<Step> next = solved(guess, now_.tangent, now_.tangent);
       if (!next || dot(next->tangent, now_.tangent) <= 0.0) continue;
