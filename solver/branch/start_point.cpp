@@ -100,7 +100,6 @@ StartPoint find_start(HarmonicBalance& balance, double frequency, double toleran
   NewtonOptions options;
   options.tolerance = tolerance;
   options.max_iterations = 40;
-  options.stop = &stops;
   const auto list = guesses(balance, frequency);
   const auto accept = [&](NewtonResult result, const std::string& way) {
     start.evaluations += result.evaluations;
@@ -115,11 +114,12 @@ StartPoint find_start(HarmonicBalance& balance, double frequency, double toleran
     return start;
   }
   for (const Guess& guess : list) {
-    if (stops()) break;
+    if (options.stop != nullptr && stops()) break;
     if (accept(solve_at(balance, guess.x, frequency, options),
                std::string("Newton from the ") + guess.name + " response")) {
       return start;
     }
+    options.stop = &stops;  // where the first is enough a curve has a point, however little time
   }
   start.is_stopped = stops();
   if (!balance.scene().contact || start.is_stopped) return start;

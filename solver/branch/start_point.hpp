@@ -21,8 +21,8 @@ struct StartPoint {
 
 /// @param tolerance  of ResponsePoint::residual.
 /// @param near       a motion near the solution, tried first; nullptr: none is known.
-/// @param stop       asked between attempts and steps of a homotopy, which may be a thousand; empty:
-///                   never true.
+/// @param stop       asked after the first attempt, between others and between steps of a homotopy,
+///                   which may be a thousand; empty: never true.
 [[nodiscard]] StartPoint find_start(HarmonicBalance& balance, double frequency, double tolerance,
                                     const Harmonics* near = nullptr,
                                     const std::function<bool()>& stop = {});
