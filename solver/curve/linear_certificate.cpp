@@ -146,20 +146,23 @@ class Proof {
     const Eigen::VectorXcd A = *inverse * load_;
     const Eigen::MatrixXd G = inverse->cwiseAbs();
     const Eigen::VectorXd size = A.cwiseAbs();
-    const Eigen::VectorXd error =
-        backward_errors(n_) * (G * (D.cwiseAbs() * size + load_.cwiseAbs()));
-    contact::MotionSet result{motion_of(A), std::numeric_limits<double>::infinity()};
-    if (h == 0.0) {
-      result.radius = error.norm() + mean_error_;
-      return result;
-    }
+    // λ − ω² cancels at a resonance: rounding is measured by its terms.
+    Eigen::MatrixXd terms = backward_errors(n_) * K_.cwiseAbs();
+    terms.diagonal().array() += backward_errors(n_) * (omega * omega + omega * damping_.array());
     const Eigen::VectorXd e = (h * (2.0 * omega + h + damping_.array().abs())).matrix();
-    const Eigen::MatrixXd M = G * e.asDiagonal();
+    const Eigen::MatrixXd M = G * (Eigen::MatrixXd(e.asDiagonal()) + terms);
+    contact::MotionSet result{motion_of(A), std::numeric_limits<double>::infinity()};
     if (!(M.rowwise().sum().maxCoeff() < contraction)) return result;  // NaN as well
-    const Eigen::VectorXd spread =
-        contact::solved(Eigen::MatrixXd::Identity(n_, n_) - M, M * (size + error));
-    result.radius = (1.0 + 1e-12) * ((spread + error).norm() +
-                                     mean_error_);  // 1e-12: rounding of a sum of n² terms
+    const Eigen::VectorXd first = M * size + backward_errors(n_) * (G * load_.cwiseAbs());
+    // Room for the roundings of these bounds, which (3) then has to have in the numbers as they
+    // are.
+    constexpr double outwards = 1.0 + 1e-10;
+    Eigen::VectorXd t =
+        outwards * outwards *
+        contact::solved(Eigen::MatrixXd::Identity(n_, n_) - M, Eigen::MatrixXd(first));
+    t.array() += 1e-12 * t.maxCoeff();
+    if (!((outwards * (first + M * t)).array() <= t.array()).all()) return result;
+    result.radius = outwards * (t.norm() + mean_error_);
     return result;
   }
 

@@ -5,10 +5,11 @@
 /// With D(ω) = K − ω² + iωC and A = D⁻¹Q, on |ω − ω_m| ≤ h, by sums over modes, which
 /// are cheap and rough (modal_enclosure.hpp); where these do not do by the inverse in the middle:
 ///
-///   A = A_m − D_m⁻¹ [D(ω) − D_m] A,      |D(ω) − D_m| ≤ e = 2ω_m h + h² + h c     (per mode)
-///   |A − A_m| ≤ (I − G diag(e))⁻¹ G diag(e) |A_m|,      G = |D_m⁻¹|
+///   A = A_m − D_m⁻¹ [D(ω) − D_m] A,      |D(ω) − D_m| ≤ e = 2ω_m h + h² + h c     (per mode)  (1)
+///   M = G (diag(e) + r),     G = |D_m⁻¹|,     r rounding of D_m                              (2)
+///   |A − A_m| ≤ t     where     M |A_m| + rounding + M t ≤ t                                 (3)
 ///
-/// where the norm of G diag(e) is below one; else, and where the conditions are not met all over
+/// where the norm of M is below one; else, and where the conditions are not met all over
 /// the enclosure, the interval is halved. The proof is of *a* solution; others may coexist (a gap
 /// that a strong enough vibration would close).
 #pragma once

@@ -71,7 +71,8 @@ ModalEnclosure::Discs ModalEnclosure::discs(double low, double high) const {
     const double load = std::abs(load_[j]);
     const double error = (load_error_[j] + load * lost / std::abs(at)) / least;
     const double passed = half * (2.0 * middle + half + std::abs(c_[j]));
-    const double narrow = load * passed / (std::abs(at) * least);
+    const double apart = std::max(std::abs(at) - lost, least);
+    const double narrow = load * passed / (apart * least);
     const double least_loss = low * c_[j];
     const double circle = least_loss > 0.0 ? 0.5 * load / least_loss : narrow;
     all.largest[j] = (load + load_error_[j]) / least;

@@ -26,8 +26,10 @@ namespace microslip::solver {
 
 /// A(ω) = centre + Δ + V z for all frequencies of an interval [m√kg].
 struct ModalBox {
-  Eigen::VectorXcd centre;                                  ///< sine + i cosine
-  Eigen::VectorXd reach;                                    ///< |z_j| at most, of the modes
+  Eigen::VectorXcd centre;  ///< sine + i cosine
+  /// |z_j| at most, of the modes; 1e-10 more than that, so that V diag(reach) may be rounded, by an
+  /// ulp an entry, to less than it is.
+  Eigen::VectorXd reach;
   double radius = std::numeric_limits<double>::infinity();  ///< ‖Δ‖ at most: rounding
 };
 

@@ -2,8 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <cstdio>
+#include <memory>
+#include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -66,6 +71,66 @@ TEST(LinearCertificate, CountsTheMeanMotion) {
   EXPECT_EQ(certificate_of(scene, 0.5, 1.2).state, LinearState::stuck);
   scene.excitation.rows()(0, 0) = -900.0;
   EXPECT_EQ(certificate_of(scene, 0.5, 1.2).state, LinearState::unknown);
+}
+
+/// Springs to ground; remembers the balls it was asked of, and proves nothing by other sets.
+class Listening final : public contact::ModalForce {
+ public:
+  explicit Listening(double stiffness) : ModalForce(1), stiffness_(stiffness) {}
+  [[nodiscard]] contact::CycleReport report(const Harmonics& /*q*/, double /*frequency*/,
+                                            Workspace& /*work*/) const override {
+    return {};
+  }
+  [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override {
+    return Eigen::MatrixXd::Constant(1, 1, stiffness_);
+  }
+  [[nodiscard]] LinearState linear_state_of(const contact::MotionSet& motions) const override {
+    if (motions.spread.size() > 0) return LinearState::unknown;
+    heard.push_back(motions);
+    return LinearState::unknown;
+  }
+  mutable std::vector<contact::MotionSet> heard;
+
+ private:
+  [[nodiscard]] contact::ForceAndJacobian evaluated(const Harmonics& /*q*/, double /*frequency*/,
+                                                    const contact::Asked& /*asked*/,
+                                                    Workspace& /*work*/) const override {
+    throw std::logic_error("no proof evaluates the force");
+  }
+  double stiffness_;
+};
+
+/// Q/(ω₀² + S − ω² + 2iζω₀ω), sine + i cosine, in more digits.
+std::complex<long double> response(const Scene& scene, double stiffness, double omega) {
+  const long double natural = scene.natural_frequency[0];
+  const long double square = static_cast<long double>(omega) * omega;
+  const std::complex<long double> d(natural * natural + stiffness - square,
+                                    2.0L * scene.damping_ratio[0] * natural * omega);
+  return static_cast<long double>(scene.excitation.sine(1)[0]) / d;
+}
+
+// Just beside a resonance, where λ − ω² loses most of its digits: an oscillator without damping
+// leaves no margin but that for rounding.
+TEST(LinearCertificate, ABallHasTheResponseWhateverRoundingDoes) {
+  int n_balls = 0;
+  for (int i = 1; i <= 200; ++i) {
+    Scene scene = rubbing(1e9);
+    scene.damping_ratio[0] = 0.0;
+    const double stiffness = 2.0 + 1e-3 * i;
+    auto force = std::make_unique<Listening>(stiffness);
+    const Listening& contact = *force;
+    scene.contact = std::move(force);
+    const double low = std::sqrt(1.0 + stiffness) * (1.0 + 1e-5 * i);
+    static_cast<void>(certificate_of(scene, low, low));
+    ASSERT_FALSE(contact.heard.empty());
+    const contact::MotionSet& ball = contact.heard.front();
+    const auto exact = response(scene, stiffness, low);
+    const std::complex<long double> centre(ball.centre.sine()[0], ball.centre.cosine()[0]);
+    EXPECT_LE(std::abs(exact - centre), ball.radius) << low;
+    EXPECT_LT(ball.radius, 1e-6 * std::abs(exact)) << low;
+    ++n_balls;
+  }
+  EXPECT_EQ(n_balls, 200);
 }
 
 TEST(LinearCertificate, OfNoContactIsNone) {
