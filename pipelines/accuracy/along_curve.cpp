@@ -6,13 +6,14 @@
 #include <functional>
 #include <limits>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 
 #include "contact/contact_force.hpp"
+#include "contact/phase.hpp"
 #include "pipelines/description/effects_left_out.hpp"
 #include "pipelines/effects/effect_sizes.hpp"
 #include "pipelines/model/contact_stage.hpp"
@@ -202,19 +203,6 @@ Indicator indicator_of(std::string_view effect, const ReducedModel& model,
   };
 }
 
-/// Of all solution points.
-ErrorRow largest_row(const Indicator& indicator, const std::string& effect,
-                     const CurveResult& result) {
-  ErrorRow row{result.name, largest_indicator_goal, effect, 0.0, ErrorKind::estimated, 0.0};
-  for (const solver::ResponsePoint& point : result.curve.points) {
-    const double here = indicator(point);
-    if (!(here > row.effect)) continue;
-    row.effect = here;
-    row.where_hz = point.frequency / (2.0 * std::numbers::pi);
-  }
-  return row;
-}
-
 /// What no model puts back: separation that is "off", harmonics above the first.
 std::vector<std::string> without_model(const ReducedModel& model, const SceneDescription& scene,
                                        const solver::ResponseCurve& curve) {
@@ -230,20 +218,35 @@ std::vector<std::string> without_model(const ReducedModel& model, const SceneDes
 
 }  // namespace
 
-std::vector<ErrorRow> rows_along_curve(const ReducedModel& simulated, const SceneDescription& scene,
-                                       const std::vector<RicherModel>& others,
-                                       const CurveResult& result) {
+std::vector<IndicatorOfCurve> indicators_along(const ReducedModel& simulated,
+                                               const SceneDescription& scene,
+                                               const std::vector<RicherModel>& others,
+                                               const CurveResult& result) {
   const ReducedModel model = model_of(simulated, result.curve);
   const auto* load = std::get_if<double>(&result.load);
   if (load == nullptr || result.integrated) return {};
-  std::vector<ErrorRow> rows;
+  std::vector<IndicatorOfCurve> all;
   const auto add = [&](const std::string& effect, const ReducedModel* with) {
     const Indicator indicator = indicator_of(effect, model, scene, with, *load);
-    if (indicator) rows.push_back(largest_row(indicator, effect, result));
+    if (!indicator) return;
+    Eigen::VectorXd at(std::ssize(result.curve.points));
+    std::ranges::transform(result.curve.points, at.begin(), indicator);
+    all.push_back({effect, std::move(at)});
   };
   for (const RicherModel& other : others) add(other.source, &other.model);
   for (const std::string& effect : without_model(model, scene, result.curve)) add(effect, nullptr);
-  return rows;
+  return all;
+}
+
+ErrorRow largest_along(const IndicatorOfCurve& indicator, const CurveResult& result) {
+  ErrorRow row{result.name, largest_indicator_goal, indicator.effect,
+               0.0,         ErrorKind::estimated,   0.0};
+  for (Eigen::Index i = 0; i < indicator.at.size(); ++i) {
+    if (!(indicator.at[i] > row.effect)) continue;
+    row.effect = indicator.at[i];
+    row.where_hz = result.curve.points[static_cast<std::size_t>(i)].frequency / contact::two_pi;
+  }
+  return row;
 }
 
 }  // namespace microslip::pipelines

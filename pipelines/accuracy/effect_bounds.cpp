@@ -228,7 +228,8 @@ bool matters_there(const std::vector<ErrorRow>& rows, double tolerance, std::str
   return there != nullptr && std::abs(there->effect) > tolerance;
 }
 
-/// Where its indicator is largest of all solution points, and what having it changes there.
+/// Where its indicator is largest of all solution points, and what having it changes beside the
+/// peaks.
 void tell_along(const std::vector<ErrorRow>& rows, double tolerance, EffectRecord& effect) {
   const ErrorRow* most = largest_indicator(rows, effect.name);
   if (most == nullptr) return;
@@ -238,10 +239,14 @@ void tell_along(const std::vector<ErrorRow>& rows, double tolerance, EffectRecor
                   most->effect, most->curve, most->where_hz);
   const ErrorRow* there = largest_row(rows, effect.name, amplitude_there_goal);
   if (there == nullptr) return;
+  const auto n_points = std::ranges::count_if(rows, [&](const ErrorRow& row) {
+    return row.source == effect.name && row.goal == std::string_view(amplitude_there_goal);
+  });
   const std::string text = fmt::format(
-      "the amplitude of {} at {:.4g} Hz, where its indicator is largest, changes by {} of the "
-      "highest peak beyond what the change of the peak makes there",
-      there->curve, there->where_hz, percent_text(std::abs(there->effect)));
+      "the amplitude of {} at {:.4g} Hz changes by {} of the highest peak beyond what the change "
+      "of the peak makes there, the most of {} solution points beside the peaks that were looked "
+      "at",
+      there->curve, there->where_hz, percent_text(std::abs(there->effect)), n_points);
   effect.reason += "; " + text;
   if (matters_there(rows, tolerance, effect.name)) effect.objection = "left out, and " + text;
 }

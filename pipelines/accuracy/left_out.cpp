@@ -13,6 +13,8 @@
 
 #include "contact/contact_force.hpp"
 #include "contact/dense.hpp"
+#include "contact/phase.hpp"
+#include "pipelines/accuracy/points_to_check.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/response/sampled_curve.hpp"
 #include "pipelines/system/deadline.hpp"
@@ -345,20 +347,6 @@ const ErrorRow* row_of(const std::vector<ErrorRow>& rows, const std::string& sou
   return row == rows.end() ? nullptr : &*row;
 }
 
-bool is_above(const ErrorRow* row) {
-  return row != nullptr && row->effect > effect_row(row->source).threshold;
-}
-
-/// The solution at a frequency that a row tells; none: a peak, which is solved for anyway.
-const solver::ResponsePoint* point_at(const solver::ResponseCurve& curve, double frequency_hz) {
-  const auto point = std::ranges::find_if(curve.points, [&](const solver::ResponsePoint& one) {
-    return one.frequency / (2.0 * std::numbers::pi) == frequency_hz;
-  });
-  const bool is_peak =
-      point == curve.points.end() || point->mark == solver::PointMark::peak || !point->slope;
-  return is_peak ? nullptr : &*point;
-}
-
 /// A change of amplitude beyond what the change of the peak makes: as much higher, and shifted.
 double beyond_peak(double change, const solver::ResponsePoint& point,
                    const solver::ResponsePoint& peak, double height, double shift) {
@@ -367,25 +355,45 @@ double beyond_peak(double change, const solver::ResponsePoint& point,
   return std::copysign(std::max(0.0, std::abs(change) - explained), change) / peak.amplitude;
 }
 
-/// The same frequency in both models.
-std::optional<solver::PeakOfBoth> solved_there(const SceneDescription& scene,
-                                               const ReducedModel& model, const RicherModel& other,
-                                               const solver::ResponsePoint& point, double load) {
-  ReducedModel richer = other.model;
-  richer.effects.located = richer.effects.located || model.effects.located;
-  const solver::Scene own = solver_scene(model, load);
-  const solver::Scene with = solver_scene(richer, load_with(richer, model, load));
-  solver::ContinuationOptions options = options_of_both(scene, model, richer);
-  options.frequency_begin = options.frequency_end = point.frequency;
-  solver::ResponseCurve alone;
-  alone.points = {point};
-  return solver::peak_elsewhere(own, options, alone, {with, other.embedding, 1.0});
-}
+/// Solves at the frequency of a point with an effect as well.
+class SolvedThere {
+ public:
+  /// @param other  borrowed.
+  SolvedThere(const SceneDescription& scene, const ReducedModel& model, const RicherModel& other,
+              double load)
+      : own_(solver_scene(model, load)),
+        richer_(solver_scene(richer_of(model, other), load_with(other.model, model, load))),
+        embedding_(other.embedding),
+        options_(options_of_both(scene, model, richer_of(model, other))) {}
+
+  /// Amplitude with the effect over that without, as a difference [m]; none: no solution near by.
+  std::optional<double> change(const solver::ResponsePoint& point) {
+    options_.frequency_begin = options_.frequency_end = point.frequency;
+    solver::ResponseCurve alone;
+    alone.points = {point};
+    const auto both = solver::peak_elsewhere(own_, options_, alone, {richer_, embedding_, 1.0});
+    if (!both) return std::nullopt;
+    return both->other_amplitude - both->amplitude;
+  }
+
+ private:
+  static ReducedModel richer_of(const ReducedModel& model, const RicherModel& other) {
+    ReducedModel richer = other.model;
+    richer.effects.located = richer.effects.located || model.effects.located;
+    return richer;
+  }
+
+  solver::Scene own_;
+  solver::Scene richer_;
+  const Eigen::MatrixXd& embedding_;
+  solver::ContinuationOptions options_;
+};
 
 }  // namespace
 
 std::vector<ErrorRow> rows_there(const ReducedModel& simulated, const SceneDescription& scene,
                                  const std::vector<RicherModel>& others, const CurveResult& result,
+                                 const std::vector<IndicatorOfCurve>& along,
                                  const std::vector<ErrorRow>& known) {
   const auto* load = std::get_if<double>(&result.load);
   const solver::ResponsePoint* peak = highest_peak(result.curve);
@@ -393,20 +401,25 @@ std::vector<ErrorRow> rows_there(const ReducedModel& simulated, const SceneDescr
   const ReducedModel model = model_of(simulated, result.curve);
   std::vector<ErrorRow> rows;
   for (const RicherModel& other : others) {
-    const ErrorRow* along = row_of(known, other.source, largest_indicator_goal);
+    const auto indicator = std::ranges::find(along, other.source, &IndicatorOfCurve::effect);
     const ErrorRow* height = row_of(known, other.source, peak_amplitude_goal);
     const ErrorRow* shift = row_of(known, other.source, peak_frequency_goal);
     if (shift == nullptr) shift = row_of(known, other.source, peak_outside_goal);
-    if (!is_above(along) || shift == nullptr || cut_short()) continue;
-    const solver::ResponsePoint* point = point_at(result.curve, along->where_hz);
+    if (indicator == along.end() || shift == nullptr) continue;
     const double higher = height != nullptr ? height->effect : 0.0;  // of one outside: not compared
-    if (point == nullptr || !std::isfinite(higher)) continue;
-    const auto both = solved_there(scene, model, other, *point, *load);
-    if (!both) continue;
-    const double change =
-        beyond_peak(both->other_amplitude - both->amplitude, *point, *peak, higher, shift->effect);
-    rows.push_back({result.name, amplitude_there_goal, other.source, change, ErrorKind::solved, 0.0,
-                    along->where_hz});
+    const std::vector<std::size_t> places =
+        points_to_check(result.curve, indicator->at, effect_row(other.source).threshold);
+    if (places.empty() || !std::isfinite(higher)) continue;
+    SolvedThere there(scene, model, other, *load);
+    for (const std::size_t place : places) {
+      if (cut_short()) break;
+      const solver::ResponsePoint& point = result.curve.points[place];
+      const auto change = there.change(point);
+      if (!change) continue;
+      rows.push_back({result.name, amplitude_there_goal, other.source,
+                      beyond_peak(*change, point, *peak, higher, shift->effect), ErrorKind::solved,
+                      0.0, point.frequency / contact::two_pi});
+    }
   }
   return rows;
 }

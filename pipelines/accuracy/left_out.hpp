@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "pipelines/accuracy/along_curve.hpp"
 #include "pipelines/accuracy/models_left_out.hpp"
 #include "pipelines/description/scene_description.hpp"
 #include "pipelines/model/reduced_model.hpp"
@@ -34,16 +35,18 @@ namespace microslip::pipelines {
                                                   const std::vector<RicherModel>& others,
                                                   const CurveResult& result);
 
-/// Where the indicator of an effect is largest along a curve and above its threshold, its solution
-/// is solved for again with the effect at the same frequency, unless it is a peak.
+/// A few points beside the peaks (points_to_check.hpp) are solved for again with the effect at the
+/// same frequency.
 /// @param others  models with one effect more each.
-/// @param known   the rows of rows_left_out() and rows_along_curve(), and of the error budget.
+/// @param along   their indicators, indicators_along().
+/// @param known   the rows of rows_left_out() and of the error budget.
 /// @return rows of the goal `amplitude_there`; none where the peaks are not known, or the other
 ///         model has no solution near by: a flank or fold that moves is told by its peak.
 [[nodiscard]] std::vector<ErrorRow> rows_there(const ReducedModel& model,
                                                const SceneDescription& scene,
                                                const std::vector<RicherModel>& others,
                                                const CurveResult& result,
+                                               const std::vector<IndicatorOfCurve>& along,
                                                const std::vector<ErrorRow>& known);
 
 }  // namespace microslip::pipelines

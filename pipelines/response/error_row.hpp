@@ -27,8 +27,8 @@ inline constexpr const char* peak_outside_goal = "peak_outside";
 /// Of a motion integrated in time, at the frequency where it is largest, as all others take too
 /// long.
 inline constexpr const char* one_frequency_goal = "one_frequency";
-/// Where such an indicator is largest and above its threshold: of the amplitude there, over the
-/// highest of the curve, beyond what the change of the peak itself makes there.
+/// At a point beside the peaks where such an indicator is above its threshold: of the amplitude
+/// there, over the highest of the curve, beyond what the change of the peak itself makes there.
 inline constexpr const char* amplitude_there_goal = "amplitude_there";
 inline constexpr const char* best_value_goal = "best_value";
 inline constexpr const char* best_amplitude_goal = "best_amplitude";
@@ -52,7 +52,7 @@ struct ErrorRow {
       0.0;  ///< relative, signed: what would be added with the source refined to its end
   ErrorKind kind = ErrorKind::estimated;
   double seconds = 0.0;   ///< of the refined solution
-  double where_hz = 0.0;  ///< of an indicator along a curve: where it is largest
+  double where_hz = 0.0;  ///< of an indicator along a curve: where it is largest; of a point
 };
 
 /// An effect that is left out, and why nothing says what it would change.

@@ -198,10 +198,11 @@ std::vector<CurveBudget> budgets_of(const ReducedModel& model, const SceneDescri
     if (cut_short()) return;
     budgets[i].left_out = rows_left_out(model, scene, others.models, curves[i]);
     std::vector<ErrorRow>& rows = budgets[i].left_out;
-    for (const ErrorRow& row : rows_along_curve(model, scene, with, curves[i])) rows.push_back(row);
+    const std::vector<IndicatorOfCurve> along = indicators_along(model, scene, with, curves[i]);
+    for (const IndicatorOfCurve& one : along) rows.push_back(largest_along(one, curves[i]));
     std::vector<ErrorRow> told = budgets[i].rows;
     told.insert(told.end(), rows.begin(), rows.end());
-    for (const ErrorRow& row : rows_there(model, scene, with, curves[i], told)) {
+    for (const ErrorRow& row : rows_there(model, scene, with, curves[i], along, told)) {
       rows.push_back(row);
     }
     kept.keep(budgets[i], curves[i]);

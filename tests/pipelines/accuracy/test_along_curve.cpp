@@ -41,8 +41,8 @@ Solved solved() { return solved({"effects.normal_motion=off"}); }
 /// Of the one effect.
 ErrorRow row_of(const std::string& effect, const Solved& of,
                 const std::vector<RicherModel>& others = {}) {
-  for (const ErrorRow& row : rows_along_curve(of.model, of.scene, others, of.curve)) {
-    if (row.source == effect) return row;
+  for (const IndicatorOfCurve& one : indicators_along(of.model, of.scene, others, of.curve)) {
+    if (one.effect == effect) return largest_along(one, of.curve);
   }
   ADD_FAILURE() << effect << " is not looked at";
   return {};
@@ -109,8 +109,8 @@ TEST(AlongCurve, TheIndicatorOfRateDependenceIsTheLargestChangeOfTheCoefficient)
 
 TEST(AlongCurve, WhatHasNoIndicatorOfTheMotionTellsNothing) {
   const Solved of = solved();
-  const auto rows = rows_along_curve(of.model, of.scene, {{"cells", of.model}}, of.curve);
-  for (const ErrorRow& row : rows) EXPECT_NE(row.source, "cells");
+  const auto all = indicators_along(of.model, of.scene, {{"cells", of.model}}, of.curve);
+  for (const IndicatorOfCurve& one : all) EXPECT_NE(one.effect, "cells");
 }
 
 TEST(AlongCurve, AnIndicatorIsToldAndIsNoBound) {

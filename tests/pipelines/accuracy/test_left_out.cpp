@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -287,6 +288,77 @@ TEST(LeftOut, TheMeanOfNormalMotionThatIsOffIsPutBack) {
     EXPECT_EQ(found(rows_of(with), "mean_coupling", peak_amplitude_goal), nullptr);
     EXPECT_EQ(others.front().source, "mean_coupling");
   }
+}
+
+// Three modes and a point that slips; along r it moves with the second mode above all. The
+// indicator is largest where friction along r changes the curve by 1 % of the peak; beside the
+// second resonance, which it damps, by a fifth.
+constexpr const char* two_resonances = R"toml([model]
+kind = "modal"
+[modal]
+frequency = [20, 24.852, 41.011]
+damping_ratio = 0.01
+force_sine = [7, 0.545, -1.944]
+output = [0.75, 0.056, -0.556]
+[[modal.points]]
+weight = 1
+tangential_stiffness = 2e4
+normal_stiffness = 4e4
+friction_coefficient = 0.5
+preload = 60
+phi_u_1 = 0.5
+phi_u_2 = 0.083
+phi_u_3 = -0.019
+phi_v_1 = 0
+phi_w_1 = 0.064
+phi_w_2 = 0.148
+phi_w_3 = -0.13
+[response]
+frequency = [19, 28]
+harmonics = 1
+)toml";
+
+/// Amplitude of a curve that does not fold, between its points.
+double amplitude_at(const solver::ResponseCurve& curve, double frequency) {
+  const auto next =
+      std::ranges::lower_bound(curve.points, frequency, {}, &solver::ResponsePoint::frequency);
+  if (next == curve.points.begin()) return next->amplitude;
+  const solver::ResponsePoint& a = *std::prev(next);
+  const double share = (frequency - a.frequency) / (next->frequency - a.frequency);
+  return a.amplitude + share * (next->amplitude - a.amplitude);
+}
+
+TEST(LeftOut, WhatChangesTheCurveBesideThePeaksIsSeenWhereTheIndicatorIsNotLargest) {
+  const auto study = [](const char* setting) {
+    return solved(parse_scene(two_resonances, "scene.toml", "/nowhere",
+                              {std::string("effects.second_direction=") + setting}));
+  };
+  const Study without = study("off");
+  const Study with = study("on");
+  const CurveResult& curve = without.curves.at(0);
+  const RicherModels others = models_left_out(without.model, without.scene, nullptr);
+  const auto known = rows_left_out(without.model, without.scene, others.models, curve);
+  const auto along = indicators_along(without.model, without.scene, others.models, curve);
+  const auto rows = rows_there(without.model, without.scene, others.models, curve, along, known);
+  double told = 0.0;
+  for (const ErrorRow& row : rows) told = std::max(told, std::abs(row.effect));
+  // What the curve with friction along r is off by, what its peak tells left out.
+  double change = 0.0;
+  const double top = amplitude(without);
+  for (const solver::ResponsePoint& point : curve.curve.points) {
+    const double there = amplitude_at(with.curves.at(0).curve, point.frequency);
+    change = std::max(change, std::abs(there - point.amplitude) / top);
+  }
+  double of_peaks = 0.0;
+  for (const ErrorRow& row : known) of_peaks = std::max(of_peaks, std::abs(row.effect));
+  EXPECT_LT(of_peaks, 0.02);
+  EXPECT_GT(change, 0.1);
+  EXPECT_GT(told, 0.5 * change);
+  // At the point of the largest indicator alone next to nothing is seen.
+  const ErrorRow most = largest_along(along.front(), curve);
+  const auto there = std::ranges::find(rows, most.where_hz, &ErrorRow::where_hz);
+  ASSERT_NE(there, rows.end());
+  EXPECT_LT(std::abs(there->effect), 0.1 * change);
 }
 
 }  // namespace
