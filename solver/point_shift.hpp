@@ -11,6 +11,7 @@
 
 #include <optional>
 
+#include "solver/continuation_options.hpp"
 #include "solver/response_curve.hpp"
 #include "solver/scene.hpp"
 
@@ -25,5 +26,12 @@ struct PointShift {
 /// @param point  solved without them; its harmonics are taken.
 /// @return empty: the branch has no direction there, or the output does not move.
 [[nodiscard]] std::optional<PointShift> point_shift(const Scene& scene, const ResponsePoint& point);
+
+/// The same at the frequency of the point, [∂R/∂x] δ = −R: the change of its amplitude.
+/// @param range  of the curve with the other forces: which harmonics are unknowns then.
+/// @return relative, signed; empty: ∂R/∂x is singular, or the output does not move.
+[[nodiscard]] std::optional<double> amplitude_shift(const Scene& scene,
+                                                    const ContinuationOptions& range,
+                                                    const ResponsePoint& point);
 
 }  // namespace microslip::solver

@@ -12,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include "pipelines/accuracy/models_left_out.hpp"
+#include "pipelines/accuracy/points_to_check.hpp"
 #include "pipelines/text/rounded.hpp"
 
 namespace microslip::pipelines {
@@ -239,14 +240,10 @@ void tell_along(const std::vector<ErrorRow>& rows, double tolerance, EffectRecor
                   most->effect, most->curve, most->where_hz);
   const ErrorRow* there = largest_row(rows, effect.name, amplitude_there_goal);
   if (there == nullptr) return;
-  const auto n_points = std::ranges::count_if(rows, [&](const ErrorRow& row) {
-    return row.source == effect.name && row.goal == std::string_view(amplitude_there_goal);
-  });
   const std::string text = fmt::format(
-      "the amplitude of {} at {:.4g} Hz changes by {} of the highest peak beyond what the change "
-      "of the peak makes there, the most of {} solution points beside the peaks that were looked "
-      "at",
-      there->curve, there->where_hz, percent_text(std::abs(there->effect)), n_points);
+      "the amplitude of {} at {:.4g} Hz, of {} solution points of a curve the one that changes "
+      "most, changes by {} of the highest peak beyond what the change of the peak makes there",
+      there->curve, there->where_hz, most_points_to_check, percent_text(std::abs(there->effect)));
   effect.reason += "; " + text;
   if (matters_there(rows, tolerance, effect.name)) effect.objection = "left out, and " + text;
 }

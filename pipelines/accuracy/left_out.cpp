@@ -22,6 +22,7 @@
 #include "pipelines/system/scene_error.hpp"
 #include "pipelines/text/effect_table.hpp"
 #include "solver/continuation.hpp"
+#include "solver/point_shift.hpp"
 #include "solver/richer_peak.hpp"
 
 namespace microslip::pipelines {
@@ -355,7 +356,7 @@ double beyond_peak(double change, const solver::ResponsePoint& point,
   return std::copysign(std::max(0.0, std::abs(change) - explained), change) / peak.amplitude;
 }
 
-/// Solves at the frequency of a point with an effect as well.
+/// The model with an effect, at the frequencies of points without.
 class SolvedThere {
  public:
   /// @param other  borrowed.
@@ -366,7 +367,12 @@ class SolvedThere {
         embedding_(other.embedding),
         options_(options_of_both(scene, model, richer_of(model, other))) {}
 
-  /// Amplitude with the effect over that without, as a difference [m]; none: no solution near by.
+  /// Change of the amplitude by having it, to first order [m]; infinite: not told.
+  [[nodiscard]] double estimate(const solver::ResponsePoint& point) const {
+    const auto shift = solver::amplitude_shift(richer_, options_, point);
+    return shift ? *shift * point.amplitude : not_there;
+  }
+  /// The same, solved for; none: no solution near by.
   std::optional<double> change(const solver::ResponsePoint& point) {
     options_.frequency_begin = options_.frequency_end = point.frequency;
     solver::ResponseCurve alone;
@@ -380,6 +386,7 @@ class SolvedThere {
   static ReducedModel richer_of(const ReducedModel& model, const RicherModel& other) {
     ReducedModel richer = other.model;
     richer.effects.located = richer.effects.located || model.effects.located;
+    richer.effects.doublings = model.effects.doublings;  // a flank asks for less than a peak
     return richer;
   }
 
@@ -388,6 +395,46 @@ class SolvedThere {
   const Eigen::MatrixXd& embedding_;
   solver::ContinuationOptions options_;
 };
+
+/// What the highest peak of a curve does by having an effect, relative.
+struct PeakChange {
+  const solver::ResponsePoint& peak;
+  double height, shift;
+};
+
+/// One step in the model with the effect tells where it changes most; that point is solved for, or
+/// the next where it has no solution near by.
+std::optional<ErrorRow> largest_there(const CurveResult& result, const std::string& source,
+                                      const std::vector<std::size_t>& places,
+                                      const PeakChange& peak, SolvedThere& there) {
+  struct Place {
+    double estimate;
+    const solver::ResponsePoint* point;
+  };
+  const auto beyond = [&](double change, const solver::ResponsePoint& point) {
+    return beyond_peak(change, point, peak.peak, peak.height, peak.shift);
+  };
+  std::vector<Place> sorted;
+  for (const std::size_t place : places) {
+    if (cut_short()) return std::nullopt;
+    const solver::ResponsePoint& point = result.curve.points[place];
+    sorted.push_back({std::abs(beyond(there.estimate(point), point)), &point});
+  }
+  std::ranges::stable_sort(sorted, std::ranges::greater{}, &Place::estimate);
+  for (const Place& place : sorted) {
+    if (cut_short()) return std::nullopt;
+    const auto change = there.change(*place.point);
+    if (!change) continue;
+    return ErrorRow{result.name,
+                    amplitude_there_goal,
+                    source,
+                    beyond(*change, *place.point),
+                    ErrorKind::solved,
+                    0.0,
+                    place.point->frequency / contact::two_pi};
+  }
+  return std::nullopt;
+}
 
 }  // namespace
 
@@ -411,14 +458,9 @@ std::vector<ErrorRow> rows_there(const ReducedModel& simulated, const SceneDescr
         points_to_check(result.curve, indicator->at, effect_row(other.source).threshold);
     if (places.empty() || !std::isfinite(higher)) continue;
     SolvedThere there(scene, model, other, *load);
-    for (const std::size_t place : places) {
-      if (cut_short()) break;
-      const solver::ResponsePoint& point = result.curve.points[place];
-      const auto change = there.change(point);
-      if (!change) continue;
-      rows.push_back({result.name, amplitude_there_goal, other.source,
-                      beyond_peak(*change, point, *peak, higher, shift->effect), ErrorKind::solved,
-                      0.0, point.frequency / contact::two_pi});
+    const PeakChange change{*peak, higher, shift->effect};
+    if (auto row = largest_there(result, other.source, places, change, there)) {
+      rows.push_back(std::move(*row));
     }
   }
   return rows;

@@ -29,7 +29,6 @@ double distance(std::size_t point, const Indices& from) {
 
 std::vector<std::size_t> points_to_check(const solver::ResponseCurve& curve,
                                          const Eigen::VectorXd& indicator, double threshold) {
-  constexpr std::size_t most = 6;
   const auto at = [&](std::size_t i) { return indicator[static_cast<Eigen::Index>(i)]; };
   Indices above;
   Indices peaks;
@@ -41,7 +40,7 @@ std::vector<std::size_t> points_to_check(const solver::ResponseCurve& curve,
   }
   Indices chosen;
   const auto left_out = [&](std::size_t i) { return at(i) * curve.points[i].amplitude; };
-  while (!above.empty() && chosen.size() < most) {
+  while (!above.empty() && chosen.size() < most_points_to_check) {
     const std::size_t next =
         chosen.empty() ? largest(above, at) : largest(above, [&](std::size_t i) {
           return left_out(i) * std::min(distance(i, chosen), distance(i, peaks));

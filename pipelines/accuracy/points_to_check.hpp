@@ -1,6 +1,6 @@
 /// @file
 /// Which solution points of a curve, beside its peaks, an effect that is left out is put back at.
-/// Each is solved for again, so they are few. With the indicator I and the amplitude A, of those
+/// Each takes an evaluation, so they are few. With the indicator I and the amplitude A, of those
 /// where I is above its threshold: first the largest I, where motion is least like one without the
 /// effect, then again and again the largest
 ///
@@ -20,8 +20,10 @@
 
 namespace microslip::pipelines {
 
+inline constexpr std::size_t most_points_to_check = 6;
+
 /// @param indicator  of every point, n_points.
-/// @return indices of points, at most six. No peaks, which are solved for anyway, and no folds.
+/// @return indices of points, at most so many. No peaks, which are solved for anyway, and no folds.
 [[nodiscard]] std::vector<std::size_t> points_to_check(const solver::ResponseCurve& curve,
                                                        const Eigen::VectorXd& indicator,
                                                        double threshold);

@@ -1,6 +1,7 @@
 #include "solver/point_shift.hpp"
 
 #include "solver/balance/condensed.hpp"
+#include "solver/balance/first_harmonics.hpp"
 #include "solver/balance/newton.hpp"
 #include "solver/balance/output_amplitude.hpp"
 #include "solver/branch/start_point.hpp"
@@ -23,6 +24,17 @@ std::optional<PointShift> point_shift(const Scene& scene, const ResponsePoint& p
   const Eigen::VectorXd gradient = balance.unknowns(output.gradient);
   return PointShift{scaling.parameter * step[n] / point.frequency,
                     scaling.x * gradient.dot(step.head(n)) / point.amplitude};
+}
+
+std::optional<double> amplitude_shift(const Scene& scene, const ContinuationOptions& range,
+                                      const ResponsePoint& point) {
+  HarmonicBalance balance(scene, first_harmonics(scene, range).united(point.orders));
+  const Eigen::VectorXd x = balance.unknowns(point.q);
+  const BalanceEvaluation at = balance.evaluate(x, point.frequency);
+  const Eigen::VectorXd step = -solved(at.jacobian, at.residual);
+  if (!step.allFinite() || !(point.amplitude > 0.0)) return std::nullopt;
+  const OutputAmplitude output = output_amplitude(balance.harmonics(x), scene.output);
+  return balance.unknowns(output.gradient).dot(step) / point.amplitude;
 }
 
 }  // namespace microslip::solver

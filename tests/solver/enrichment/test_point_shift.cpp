@@ -71,5 +71,33 @@ TEST(PointShift, TellsWhereLocatedEventsHavePeaksAndFolds) {
   EXPECT_GT(n_folds, 2);
 }
 
+/// The same at the frequency of points beside the peaks, where located events are solved for.
+TEST(AmplitudeShift, TellsAmplitudesOfLocatedEventsAtOneFrequency) {
+  const tests::UntrappedFloatingPoint lanes_divide_before_they_choose;
+  int n_told = 0;
+  Scene located = tests::three_dof_scene(50.0);
+  tests::use_event_cycles(located);
+  Scene sampled = tests::three_dof_scene(50.0);
+  tests::use_lanes(sampled, 64);
+  const ContinuationOptions own = range(ContinuationOptions::Corrector::newton);
+  const ResponseCurve coarse =
+      trace_response(sampled, range(ContinuationOptions::Corrector::few_jacobians));
+  for (std::size_t i = 0; i < coarse.points.size(); i += 4) {
+    const ResponsePoint& point = coarse.points[i];
+    if (point.mark != PointMark::none) continue;
+    ContinuationOptions near = own;
+    near.near_begin = point.q;
+    const ResponseCurve exact = solve_at_frequency(located, point.frequency, near);
+    ASSERT_TRUE(exact.complete);
+    const double amplitude = exact.points.front().amplitude / point.amplitude - 1.0;
+    if (std::abs(amplitude) > 0.05) continue;  // another branch
+    const auto shift = amplitude_shift(located, own, point);
+    ASSERT_TRUE(shift.has_value());
+    EXPECT_NEAR(*shift, amplitude, 0.15 * std::abs(amplitude) + 1e-6) << point.frequency / two_pi;
+    ++n_told;
+  }
+  EXPECT_GT(n_told, 5);
+}
+
 }  // namespace
 }  // namespace microslip::solver::test_point_shift
