@@ -36,7 +36,7 @@ Eigen::MatrixXd same_signs(const ReducedModel& from, const ReducedModel& to) {
 /// What is left after extrapolation falls at least half an order faster, but for what is not
 /// extrapolated.
 double extrapolated_ratio(const SolvedStructure& structure) {
-  const double ratio = structure.coarser->ratio;
+  const double ratio = *structure.coarser->ratios.free.front();
   const bool all = structure.modes.residuals.empty() && !structure.modes.static_face;
   return all ? std::numbers::sqrt2 * ratio : ratio;
 }

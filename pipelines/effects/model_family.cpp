@@ -15,6 +15,7 @@
 #include "pipelines/model/contact_factors.hpp"
 #include "pipelines/model/contact_stage.hpp"
 #include "pipelines/scene/scene_file.hpp"
+#include "pipelines/structure/extrapolated_modes.hpp"
 #include "pipelines/structure/static_preload.hpp"
 #include "pipelines/system/temporary_folder.hpp"
 
@@ -83,7 +84,7 @@ ModelFamily::Structure ModelFamily::structure_at(double value, const SceneDescri
   if (known != structures_.end()) return known->second;
   const TemporaryFolder folder;
   auto own = std::make_shared<const SolvedStructure>(
-      solved_structure(changed, folder.path() / "mesh.msh"));
+      solved_likewise(changed, *structure_, folder.path() / "mesh.msh"));
   // The values of a first scan are asked for again with every factor, those that follow are not.
   constexpr std::size_t n_kept = 16;
   if (structures_.size() < n_kept) structures_.emplace(value, own);

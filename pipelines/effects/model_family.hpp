@@ -52,7 +52,8 @@ class ModelFamily {
   ModelFamily(const SceneDescription& scene, std::string key, const ReducedModel& model,
               std::shared_ptr<const SolvedStructure> structure);
 
-  /// The model at a value. Modes are solved anew only where the number changes them.
+  /// The model at a value. Modes are solved anew only where the number changes them, and
+  /// extrapolated as those of the scene are.
   /// @param stiffness_factor  of the local contact stiffness; other than 1 where the scene has it
   ///                          in keys (contact_factors.hpp) only.
   /// @throws SceneError, RefusedError  no scene, or none that can be simulated, at this value.

@@ -18,28 +18,16 @@
 namespace microslip::pipelines {
 namespace {
 
-constexpr double per_meshed_freedom = 7e-5;  // [s]
-
 ResponseSeconds seconds_of(const ReducedModel& model, const SceneDescription& scene) {
   return response_seconds(scene, curve_effects(scene, model.effects.second_direction));
 }
 
 }  // namespace
 
-double mesh_and_modes_seconds(double degrees_of_freedom, const SceneDescription& scene) {
-  const double mesh = (element_size_of(scene) ? per_meshed_freedom : 1e-5) * degrees_of_freedom;
-  if (given_modes(scene) != nullptr) return mesh;
-  const double modes = modes_seconds(degrees_of_freedom, scene.settings.basis);
-  constexpr double start = 0.5;  // of the mesher, of the libraries
-  return start + mesh + modes;
-}
-
 double coarser_meshes_seconds(double degrees_of_freedom, const SceneDescription& scene) {
   if (!scene.accuracy.error_budget || !element_size_of(scene)) return 0.0;
   if (in_time(scene) || only_limits(scene)) return 0.0;
-  constexpr double fewer = 5.0;  // a blade is thin: between the square and the cube of two
-  return mesh_and_modes_seconds(degrees_of_freedom / fewer, scene) +
-         mesh_and_modes_seconds(degrees_of_freedom / (fewer * fewer), scene);
+  return larger_elements_seconds(degrees_of_freedom, scene);
 }
 
 double modes_again_seconds(double degrees_of_freedom, const SceneDescription& scene,

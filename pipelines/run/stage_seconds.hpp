@@ -11,11 +11,8 @@
 
 namespace microslip::pipelines {
 
-/// Of a mesh that is made here, or read, and its modes. Processor seconds of one core, as all here.
-[[nodiscard]] double mesh_and_modes_seconds(double degrees_of_freedom,
-                                            const SceneDescription& scene);
-
-/// The same of elements twice and four times as large, which tell the error of the mesh.
+/// Of meshes of elements twice and four times as large, which tell the error of the mesh, and their
+/// modes. Processor seconds of one core, as all here.
 [[nodiscard]] double coarser_meshes_seconds(double degrees_of_freedom,
                                             const SceneDescription& scene);
 

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "mesh/interpolation.hpp"
+#include "pipelines/structure/solver_time.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/scene_error.hpp"
 #include "pipelines/system/temporary_folder.hpp"
@@ -56,11 +57,14 @@ struct Match {
 };
 using Matches = std::vector<Match>;
 
+// Cosine: what two shapes differ by beyond their sign is scaled by up to two. Modes of nearly one
+// frequency, which turn from mesh to mesh, are not the same.
+constexpr double same_shape = 0.99;
+
 /// @param other  shapes at the same nodes.
-Matches matches(const fem::ModalBasis& basis, const fem::ModalBasis& other) {
-  // Cosine: what two shapes differ by beyond their sign is scaled by up to two. Modes of nearly one
-  // frequency, which turn from mesh to mesh, are not the same.
-  constexpr double same = 0.99;
+/// @param least  cosine above which shapes are the same; 0: the nearest of all.
+Matches matches(const fem::ModalBasis& basis, const fem::ModalBasis& other,
+                double least = same_shape) {
   Matches found(static_cast<std::size_t>(basis.frequency.size()));
   const Eigen::MatrixXd cosines =
       basis.shapes.colwise().normalized().transpose() * other.shapes.colwise().normalized();
@@ -71,7 +75,7 @@ Matches matches(const fem::ModalBasis& basis, const fem::ModalBasis& other) {
     for (Eigen::Index i = kind.begin; i < kind.end; ++i) {
       Eigen::Index j = 0;
       const auto of_kind = cosines.row(i).segment(kind.begin, kind.end - kind.begin);
-      if (!(of_kind.cwiseAbs().maxCoeff(&j) > same)) continue;
+      if (!(of_kind.cwiseAbs().maxCoeff(&j) > least)) continue;
       j += kind.begin;
       found[static_cast<std::size_t>(i)] = {j, std::copysign(1.0, cosines(i, j))};
     }
@@ -121,15 +125,35 @@ void extrapolate(fem::ModalBasis& fine, const fem::ModalBasis& coarse, const Mat
     const double share = 1.0 / (*ratios[n] - 1.0);
     const double square = std::pow(fine.frequency[i], 2);
     const double limit = square + share * (square - std::pow(coarse.frequency[j], 2));
-    fine.frequency[i] = std::sqrt(limit);  // converges(): most of ω² is left
+    if (!(limit > 0.0)) {  // not of what converges(), where most of ω² is left
+      throw RefusedError(fmt::format(
+          "modes cannot be extrapolated: mode {} lies at {:.4g} Hz, on elements of twice the size "
+          "at {:.4g} Hz; set accuracy.extrapolation = \"off\"",
+          i + 1, fine.frequency[i] / turn, coarse.frequency[j] / turn));
+    }
+    fine.frequency[i] = std::sqrt(limit);
     fine.shapes.col(i) += share * (fine.shapes.col(i) - same[n].sign * coarse.shapes.col(j));
   }
 }
 
+ExtrapolationRatios by_kind(const fem::ModalBasis& basis, const Ratios& ratios) {
+  const auto attachment = ratios.begin() + basis.n_free();
+  return {{ratios.begin(), attachment}, {attachment, ratios.end()}};
+}
+
+/// Of another scene, for the columns of this basis; what that has not stays.
+Ratios of_columns(const fem::ModalBasis& basis, const ExtrapolationRatios& known) {
+  Ratios ratios = known.free;
+  ratios.resize(static_cast<std::size_t>(basis.n_free()));
+  ratios.insert(ratios.end(), known.attachment.begin(), known.attachment.end());
+  ratios.resize(static_cast<std::size_t>(basis.frequency.size()));
+  return ratios;
+}
+
 /// The bases of three meshes: those of h and 2h are extrapolated, the same columns of both.
-/// @return whether the first mode is among them.
-bool extrapolate(fem::ModalBasis& fine, const Interpolation& to_fine, fem::ModalBasis& coarse,
-                 const Interpolation& to_coarse, const fem::ModalBasis& coarsest) {
+ExtrapolationRatios extrapolate(fem::ModalBasis& fine, const Interpolation& to_fine,
+                                fem::ModalBasis& coarse, const Interpolation& to_coarse,
+                                const fem::ModalBasis& coarsest) {
   const fem::ModalBasis coarse_at_fine = at_nodes(to_fine, coarse);
   const fem::ModalBasis coarsest_at_coarse = at_nodes(to_coarse, coarsest);
   const Matches in_coarse = matches(fine, coarse_at_fine);
@@ -142,11 +166,12 @@ bool extrapolate(fem::ModalBasis& fine, const Interpolation& to_fine, fem::Modal
   }
   extrapolate(fine, coarse_at_fine, in_coarse, ratios);
   extrapolate(coarse, coarsest_at_coarse, in_coarsest, ratios_of_coarse);
-  return ratios.front().has_value();
+  return by_kind(fine, ratios);
 }
 
-/// Modes, and those with more attachment shapes. @return whether the first mode is extrapolated.
-bool extrapolate(SolvedStructure& fine, SolvedStructure& coarse, const SolvedStructure& coarsest) {
+/// Modes, and those with more attachment shapes. @return of the modes.
+ExtrapolationRatios extrapolate(SolvedStructure& fine, SolvedStructure& coarse,
+                                const SolvedStructure& coarsest) {
   const Interpolation to_fine = mesh::interpolation(coarse.mesh, fine.mesh.nodes());
   const Interpolation to_coarse = mesh::interpolation(coarsest.mesh, coarse.mesh.nodes());
   std::optional<fem::RicherBasis>& richer = fine.modes.richer;
@@ -158,6 +183,19 @@ bool extrapolate(SolvedStructure& fine, SolvedStructure& coarse, const SolvedStr
   }
   return extrapolate(fine.modes.basis, to_fine, coarse.modes.basis, to_coarse,
                      coarsest.modes.basis);
+}
+
+/// What the coarser meshes take, where it is more than half of the time there is: the curves need
+/// the rest. Empty: it fits.
+std::string too_long(const mesh::Mesh& mesh, const SceneDescription& scene) {
+  constexpr double most = 0.5;
+  const double seconds = larger_elements_seconds(3.0 * static_cast<double>(mesh.n_nodes()), scene);
+  const double left = seconds_to_work();
+  if (seconds <= most * left) return {};
+  return fmt::format(
+      "modes are not extrapolated: on elements of two and four times the size they take some "
+      "{:.2g} s, and the budget leaves {:.2g} s",
+      seconds, left);
 }
 
 std::string text_of(double size, const ThreeFrequencies& first) {
@@ -194,6 +232,7 @@ std::string extrapolate_modes(SolvedStructure& structure, const SceneDescription
   if (!is_extrapolated(scene)) return {};
   if (cut_short()) return "modes are not extrapolated: out of time";
   if (basis.n_rigid_body > 0) return "modes are not extrapolated: the body is not held";
+  if (std::string text = too_long(structure.mesh, scene); !text.empty()) return text;
   try {
     const auto coarser = std::make_shared<CoarserMeshes>(
         CoarserMeshes{.twice = on_larger_elements(scene, 2.0, basis.n_free())});
@@ -202,9 +241,9 @@ std::string extrapolate_modes(SolvedStructure& structure, const SceneDescription
                                  four_times.modes.basis.frequency[0]};
     const std::string text = text_of(*element_size_of(scene), first);
     if (!converges(first)) return text + ": they are too far apart to be extrapolated";
-    coarser->ratio = observed_ratio(first.fine, first.coarse, first.coarsest);
     SolvedStructure limit = structure;
-    if (!extrapolate(limit, coarser->twice, four_times)) {
+    coarser->ratios = extrapolate(limit, coarser->twice, four_times);
+    if (!coarser->ratios.free.front()) {
       return text + ": modes are not extrapolated, the first has another shape on each mesh";
     }
     structure = std::move(limit);
@@ -218,6 +257,22 @@ std::string extrapolate_modes(SolvedStructure& structure, const SceneDescription
     return fmt::format("modes are not extrapolated: on elements of two and four times the size: {}",
                        error.what());
   }
+}
+
+SolvedStructure solved_likewise(SceneDescription scene, const SolvedStructure& like,
+                                const std::filesystem::path& mesh_file) {
+  scene.accuracy.extrapolation = false;
+  SolvedStructure structure = solved_structure(scene, mesh_file);
+  if (!like.coarser) return structure;
+  fem::ModalBasis& basis = structure.modes.basis;
+  const SolvedStructure twice = on_larger_elements(scene, 2.0, basis.n_free());
+  const fem::ModalBasis coarse =
+      at_nodes(mesh::interpolation(twice.mesh, structure.mesh.nodes()), twice.modes.basis);
+  constexpr double nearest = 0.0;
+  extrapolate(basis, coarse, matches(basis, coarse, nearest),
+              of_columns(basis, like.coarser->ratios));
+  structure.modes.richer.reset();  // not extrapolated
+  return structure;
 }
 
 }  // namespace microslip::pipelines

@@ -14,17 +14,26 @@
 /// 299–361.
 #pragma once
 
+#include <filesystem>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "pipelines/description/scene_description.hpp"
 #include "pipelines/structure/solved_structure.hpp"
 
 namespace microslip::pipelines {
 
+/// 2^p of every mode and attachment shape; empty: it stays.
+struct ExtrapolationRatios {
+  std::vector<std::optional<double>> free{};
+  std::vector<std::optional<double>> attachment{};
+};
+
 struct CoarserMeshes {
-  SolvedStructure twice;  ///< of 2h, extrapolated likewise from 4h
-  double ratio = 2.0;     ///< 2^p of the first frequency
-  std::string text{};     ///< what was done, for the log
+  SolvedStructure twice;         ///< of 2h, extrapolated likewise from 4h
+  ExtrapolationRatios ratios{};  ///< the first of `free` is there
+  std::string text{};            ///< what was done, for the log
 };
 
 /// Where an accuracy is asked for and the geometry is meshed here, unless
@@ -39,11 +48,22 @@ struct CoarserMeshes {
 [[nodiscard]] double observed_ratio(double fine, double coarse, double coarsest);
 
 /// Extrapolates the modes of a structure and keeps what they are extrapolated from.
-/// Leaves them where the scene does not ask for it, the coarser meshes cannot be solved, or their
-/// first frequencies do not fall towards that of the fine one.
+/// Leaves them where the scene does not ask for it, the coarser meshes cannot be solved or take
+/// more than half of the time that is left, or their first frequencies do not fall towards that of
+/// the fine one.
 /// @param structure  mesh and modes of the scene.
 /// @return what was done, or why it was not, for the log; empty: the scene does not ask for it.
 /// @throws InterruptedError
 std::string extrapolate_modes(SolvedStructure& structure, const SceneDescription& scene);
+
+/// Mesh and modes of a scene that differs from another in a number that is searched. What is
+/// extrapolated, and by how much, is that of the other: decided anew at each value it would make
+/// a search go over steps.
+/// @param like       of the other scene.
+/// @param mesh_file  where the mesher writes.
+/// @throws RefusedError  modes of this one are too far from those on coarser elements for it. Else
+///                       as solved_structure().
+[[nodiscard]] SolvedStructure solved_likewise(SceneDescription scene, const SolvedStructure& like,
+                                              const std::filesystem::path& mesh_file);
 
 }  // namespace microslip::pipelines

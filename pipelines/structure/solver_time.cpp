@@ -17,6 +17,20 @@ double modes_seconds(double degrees_of_freedom, const BasisSettings& basis) {
   return ten * std::max(1.0, basis.n_modes / 10.0);
 }
 
+double mesh_and_modes_seconds(double degrees_of_freedom, const SceneDescription& scene) {
+  const double mesh = (element_size_of(scene) ? per_meshed_freedom : 1e-5) * degrees_of_freedom;
+  if (given_modes(scene) != nullptr) return mesh;
+  const double modes = modes_seconds(degrees_of_freedom, scene.settings.basis);
+  constexpr double start = 0.5;  // of the mesher, of the libraries
+  return start + mesh + modes;
+}
+
+double larger_elements_seconds(double degrees_of_freedom, const SceneDescription& scene) {
+  constexpr double fewer = 5.0;  // a blade is thin: between the square and the cube of two
+  return mesh_and_modes_seconds(degrees_of_freedom / fewer, scene) +
+         mesh_and_modes_seconds(degrees_of_freedom / (fewer * fewer), scene);
+}
+
 void require_time(const mesh::Mesh& mesh, const BasisSettings& basis) {
   constexpr double at_least = 0.5;  // of the forecast
   const double degrees_of_freedom = 3.0 * static_cast<double>(mesh.n_nodes());

@@ -4,6 +4,7 @@
 
 #include "mesh/mesh.hpp"
 #include "pipelines/description/discretisation.hpp"
+#include "pipelines/description/scene_description.hpp"
 
 namespace microslip::pipelines {
 
@@ -11,6 +12,18 @@ namespace microslip::pipelines {
 /// the factorisations of a three-dimensional mesh grow as n². Iteratively: as n, for the steps
 /// hardly grow with the mesh.
 [[nodiscard]] double modes_seconds(double degrees_of_freedom, const BasisSettings& basis);
+
+/// Of a mesh that is made here, of one freedom.
+inline constexpr double per_meshed_freedom = 7e-5;
+
+/// Of a mesh that is made here, or read, and its modes.
+[[nodiscard]] double mesh_and_modes_seconds(double degrees_of_freedom,
+                                            const SceneDescription& scene);
+
+/// The same of elements twice and four times as large, both. @param degrees_of_freedom  of the mesh
+///                                                                                    at hand.
+[[nodiscard]] double larger_elements_seconds(double degrees_of_freedom,
+                                             const SceneDescription& scene);
 
 /// @throws ExhaustedError  half of the forecast, which it may be wrong by,
 ///         is more than the budget of time leaves.

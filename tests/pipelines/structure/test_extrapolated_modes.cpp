@@ -2,13 +2,17 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "pipelines/effects/model_family.hpp"
 #include "pipelines/scene/scene_file.hpp"
+#include "pipelines/system/deadline.hpp"
 #include "pipelines/system/temporary_folder.hpp"
 
 namespace microslip::pipelines::test_extrapolated_modes {
@@ -76,6 +80,55 @@ TEST(ExtrapolatedModes, AreLeftWhereTheSceneSaysSo) {
 TEST(ExtrapolatedModes, AreLeftWhereCoarserMeshesDoNotConverge) {
   const SolvedStructure coarse = blade({"accuracy.tolerance=0.02", "model.element_size=\"30 mm\""});
   EXPECT_FALSE(coarse.coarser);
+}
+
+/// The first frequency of a blade of another thickness [Hz].
+double likewise_in_hz(const std::string& neck, const SolvedStructure& like) {
+  const SceneDescription scene =
+      read_scene(MICROSLIP_SCENES "/blade_to_ground.toml",
+                 {"model.element_size=\"5 mm\"", "accuracy.tolerance=0.02", neck});
+  const TemporaryFolder folder;
+  return in_hz(solved_likewise(scene, like, folder.path() / "mesh.msh"), 0);
+}
+
+// A search over a number of the geometry asks for modes at many values: those of one scene decide
+// for all, or the frequencies would jump by the error of the mesh, 1 % here.
+TEST(ExtrapolatedModes, OfASearchAreThoseOfItsSceneOrOfNone) {
+  const std::string same = "model.element_size=\"5 mm\"";
+  EXPECT_NEAR(likewise_in_hz(same, raw_blade()), in_hz(raw_blade(), 0), 1e-6);
+  EXPECT_NEAR(likewise_in_hz(same, extrapolated_blade()), in_hz(extrapolated_blade(), 0), 1e-6);
+  EXPECT_GT(in_hz(raw_blade(), 0), in_hz(extrapolated_blade(), 0) + 1.0);
+}
+
+TEST(ExtrapolatedModes, OfASearchAreNotExtrapolatedWhereThoseOfItsSceneAreNot) {
+  const SceneDescription scene =
+      read_scene(MICROSLIP_SCENES "/blade_to_ground.toml",
+                 {"model.element_size=\"5 mm\"", "accuracy.tolerance=0.02"});
+  std::vector<std::string> warnings;
+  const auto raw = std::make_shared<const SolvedStructure>(raw_blade());
+  const ReducedModel model = model_of(scene, raw.get(), warnings);
+  ModelFamily family(scene, "material.poissons_ratio", model, raw);
+  EXPECT_NEAR(family.at(0.3).frequency[0], model.frequency[0], 1e-6 * model.frequency[0]);
+}
+
+// Where these elements alone say that frequencies do not converge.
+TEST(ExtrapolatedModes, OfASearchAreExtrapolatedWhereAloneTheyWouldNotBe) {
+  const std::string coarse = "model.element_size=\"30 mm\"";
+  const double raw = likewise_in_hz(coarse, raw_blade());
+  EXPECT_LT(likewise_in_hz(coarse, extrapolated_blade()), raw - 1.0);
+}
+
+TEST(ExtrapolatedModes, AreLeftWhereTheBudgetHasNoRoomForCoarserMeshes) {
+  const SceneDescription scene =
+      read_scene(MICROSLIP_SCENES "/blade_to_ground.toml",
+                 {"model.element_size=\"5 mm\"", "accuracy.tolerance=0.02"});
+  SolvedStructure structure = raw_blade();
+  begin_deadline(3.0, 0.0);  // a second and a half to work in
+  const std::string text = extrapolate_modes(structure, scene);
+  begin_deadline(std::numeric_limits<double>::infinity());
+  EXPECT_NE(text.find("the budget leaves"), std::string::npos) << text;
+  EXPECT_FALSE(structure.coarser);
+  EXPECT_FALSE(was_cut_short());
 }
 
 TEST(ExtrapolatedModes, RatesAreThoseOfCornersToSmoothFields) {
