@@ -402,38 +402,42 @@ struct PeakChange {
   double height, shift;
 };
 
-/// One step in the model with the effect tells where it changes most; that point is solved for, or
-/// the next where it has no solution near by.
-std::optional<ErrorRow> largest_there(const CurveResult& result, const std::string& source,
-                                      const std::vector<std::size_t>& places,
-                                      const PeakChange& peak, SolvedThere& there) {
+/// The first of the places is solved for. Of the others one step in the model with the effect tells
+/// which changes most, and that is solved for, or the next where it has no solution near by: a
+/// step is short where the effect adds stiffness.
+std::vector<ErrorRow> solved_places(const CurveResult& result, const std::string& source,
+                                    const std::vector<std::size_t>& places, const PeakChange& peak,
+                                    SolvedThere& there) {
+  std::vector<ErrorRow> rows;
+  const auto beyond = [&](double change, const solver::ResponsePoint& point) {
+    return beyond_peak(change, point, peak.peak, peak.height, peak.shift);
+  };
+  const auto solve = [&](const solver::ResponsePoint& point) {
+    const auto change = there.change(point);
+    if (!change) return false;
+    rows.push_back({result.name, amplitude_there_goal, source, beyond(*change, point),
+                    ErrorKind::solved, 0.0, point.frequency / contact::two_pi});
+    return true;
+  };
   struct Place {
     double estimate;
     const solver::ResponsePoint* point;
   };
-  const auto beyond = [&](double change, const solver::ResponsePoint& point) {
-    return beyond_peak(change, point, peak.peak, peak.height, peak.shift);
-  };
-  std::vector<Place> sorted;
+  std::vector<Place> others;
   for (const std::size_t place : places) {
-    if (cut_short()) return std::nullopt;
+    if (cut_short()) return rows;
     const solver::ResponsePoint& point = result.curve.points[place];
-    sorted.push_back({std::abs(beyond(there.estimate(point), point)), &point});
+    if (place == places.front()) {
+      solve(point);
+    } else {
+      others.push_back({std::abs(beyond(there.estimate(point), point)), &point});
+    }
   }
-  std::ranges::stable_sort(sorted, std::ranges::greater{}, &Place::estimate);
-  for (const Place& place : sorted) {
-    if (cut_short()) return std::nullopt;
-    const auto change = there.change(*place.point);
-    if (!change) continue;
-    return ErrorRow{result.name,
-                    amplitude_there_goal,
-                    source,
-                    beyond(*change, *place.point),
-                    ErrorKind::solved,
-                    0.0,
-                    place.point->frequency / contact::two_pi};
+  std::ranges::stable_sort(others, std::ranges::greater{}, &Place::estimate);
+  for (const Place& place : others) {
+    if (cut_short() || solve(*place.point)) break;
   }
-  return std::nullopt;
+  return rows;
 }
 
 }  // namespace
@@ -459,8 +463,8 @@ std::vector<ErrorRow> rows_there(const ReducedModel& simulated, const SceneDescr
     if (places.empty() || !std::isfinite(higher)) continue;
     SolvedThere there(scene, model, other, *load);
     const PeakChange change{*peak, higher, shift->effect};
-    if (auto row = largest_there(result, other.source, places, change, there)) {
-      rows.push_back(std::move(*row));
+    for (const ErrorRow& row : solved_places(result, other.source, places, change, there)) {
+      rows.push_back(row);
     }
   }
   return rows;
