@@ -30,7 +30,8 @@ constexpr double of_a_check = 30.0;  // of the peak, with eight harmonics more t
 constexpr double of_a_start = 20.0;
 constexpr double of_error_rows =
     300.0;  // of a curve: five richer models, one of four times the points
-constexpr double curves_of_a_search = 30.0;  // for a best value, as many evaluations
+constexpr double of_error_rows_of_chosen = 450.0;  // peaks have more harmonics than their curves
+constexpr double curves_of_a_search = 30.0;        // for a best value, as many evaluations
 constexpr double searches_of_a_bracket = 4.0;
 constexpr double frequencies_of_a_search = 14.0;  // of a range (solver/curve/branch_search.hpp)
 
@@ -299,7 +300,8 @@ ResponseSeconds response_seconds(const SceneDescription& scene, const CurveEffec
          check_seconds(scene, effects, size));
     if (scene.accuracy.error_budget) {
       const bool meshed = !scene.contacts.empty();
-      const double rows = meshed ? of_error_rows * evaluation : 0.0;
+      const double of_rows = effects.chosen_harmonics ? of_error_rows_of_chosen : of_error_rows;
+      const double rows = meshed ? of_rows * evaluation : 0.0;
       const double check = meshed ? of_an_effect_on_a_mesh : of_an_effect;
       seconds.errors = n_curves(scene) * (rows + check * evaluations_with(scene, effects));
     }
