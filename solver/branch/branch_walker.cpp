@@ -243,26 +243,43 @@ bool BranchWalker::is_other_part(const Trial& trial, double angle) {
   return angle > least_angle && 1.0 - trial.cosine < much_less * angle;
 }
 
+/// The Jacobian just beyond a kink is that of the regime in which the probe lies, straight on at
+/// first. Where several events meet, the branch may go on in another: of a stuck point whose
+/// friction falls with the speed, the force reaches its limit before and after each of its peaks at
+/// once. The regime is the right one where its own null vector leads into it.
 /// @param orientation  beyond the kink.
 bool BranchWalker::leave_kink(double orientation) {
+  constexpr int most_regimes = 4;
+  constexpr double same_way = 1e-6;  // versine
   for (double beyond = 1e-7; beyond < 1e-2; beyond *= 10.0) {
-    const BranchVector probe = moved(now_.solution.point, now_.tangent, beyond, now_.scaling);
-    const BalanceEvaluation other = system_(probe.x, probe.parameter);
-    ++evaluations_;
-    const std::optional<BranchVector> way = null_vector(other, now_.scaling, orientation);
-    if (!way) continue;
-    const double angle = 1.0 - std::abs(dot(*way, now_.tangent));
-    for (double distance = 30.0 * beyond; distance < 2e-2; distance *= 5.0) {
-      Trial trial = attempt(*way, distance, 15);
-      const bool onward = trial.converged && trial.correction < 0.7 && trial.cosine > 0.5 &&
-                          trial.orientation == orientation;
-      if (!onward || (orientation != orientation_ && !is_other_part(trial, angle))) continue;
-      remember(Remedy::kink_turn);
-      if (dot(*way, now_.tangent) < 0.0) kink_ = {now_.solution, *way, now_.scaling};
-      step_ = distance;
-      accept(std::move(trial));
-      return true;
+    BranchVector towards = now_.tangent;
+    for (int i = 0; i < most_regimes; ++i) {
+      const BranchVector probe = moved(now_.solution.point, towards, beyond, now_.scaling);
+      const BalanceEvaluation other = system_(probe.x, probe.parameter);
+      ++evaluations_;
+      std::optional<BranchVector> way = null_vector(other, now_.scaling, orientation);
+      if (!way) break;
+      if (i > 0 && 1.0 - dot(*way, towards) < same_way) break;
+      if (leave_kink(*way, beyond, orientation)) return true;
+      towards = std::move(*way);
     }
+  }
+  return false;
+}
+
+/// @param beyond  how far off the Jacobian was seen whose null vector `way` is.
+bool BranchWalker::leave_kink(const BranchVector& way, double beyond, double orientation) {
+  const double angle = 1.0 - std::abs(dot(way, now_.tangent));
+  for (double distance = 30.0 * beyond; distance < 2e-2; distance *= 5.0) {
+    Trial trial = attempt(way, distance, 15);
+    const bool onward = trial.converged && trial.correction < 0.7 && trial.cosine > 0.5 &&
+                        trial.orientation == orientation;
+    if (!onward || (orientation != orientation_ && !is_other_part(trial, angle))) continue;
+    remember(Remedy::kink_turn);
+    if (dot(way, now_.tangent) < 0.0) kink_ = {now_.solution, way, now_.scaling};
+    step_ = distance;
+    accept(std::move(trial));
+    return true;
   }
   return false;
 }

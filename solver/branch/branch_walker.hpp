@@ -112,6 +112,7 @@ class BranchWalker {
   [[nodiscard]] bool leap();
   [[nodiscard]] bool turn_at_kink();
   [[nodiscard]] bool leave_kink(double orientation);
+  [[nodiscard]] bool leave_kink(const BranchVector& way, double beyond, double orientation);
   [[nodiscard]] static bool is_other_part(const Trial& trial, double angle);
   [[nodiscard]] std::optional<WalkerPoint> corrected(const BranchVector& start,
                                                      const BranchVector& chord,

@@ -7,9 +7,11 @@ where it came, for ever or out of the range at its begin. What looks like a tip 
 at a kink, the branch goes on with a bend. And a walk that stalls on its way against the range is not to be begun again
 behind that place. Where a motion that changes sign after half a period begins to slip, two events meet, and the determinant may
 change its sign where the branch turns back.
+At the limit of a stuck point whose friction falls with the speed four events meet, and the regime straight on is not the one
+in which the branch goes on.
 From: random scenes, 53.54 (five points with gaps, friction in a plane), 83.15 (friction that falls with the speed: a branch
-point in a bend), 29.163 (hyperbolic law: a stall on the way against the range; with 5 % damping two events at once) and 113.83 (a chain
-that parts: a step from before a kink to the part beyond it, which comes back).
+point in a bend), 29.163 (hyperbolic law: a stall on the way against the range; with 5 % damping two events at once), 113.83 (a chain
+that parts: a step from before a kink to the part beyond it, which comes back) and 113.225 (exponential law: four events at once).
 Right: complete, no fold is passed twice, and from end to end they are even in number.
 
 usage: sharp_tips.py MICROSLIP WORK_FOLDER
@@ -50,7 +52,7 @@ def main(program, folder):
     assert code == 0 and curve["complete"], curve["message"]
     assert len(curve["folds_Hz"]) > 10 and not passed_twice(curve["folds_Hz"]), curve["folds_Hz"]
 
-    for scene, *settings in (((83, 15),), ((29, 163),), ((29, 163), "modal.damping_ratio=0.05"), ((113, 83),)):
+    for scene, *settings in (((83, 15),), ((29, 163),), ((29, 163), "modal.damping_ratio=0.05"), ((113, 83),), ((113, 225),)):
         name = ".".join(map(str, scene)) + "".join(f" with {setting}" for setting in settings)
         code, curve = solved(program, os.path.join(folder, name), scene, *settings)
         print(f"{name}: {curve['points']} points, {len(curve['folds_Hz'])} folds, {curve['diagnosis'] or 'complete'}")

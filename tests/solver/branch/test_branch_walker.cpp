@@ -166,5 +166,60 @@ TEST(BranchWalker, KinksAtWhichTheBranchTurnsBackAreLeftAndTold) {
   EXPECT_EQ(n_kinks, 60);
 }
 
+/// p = u, v = 0 up to the origin, where two events meet: u + v = 0 and u − v = 0. Beyond them
+/// M = max(u + v, u − v) acts in 0 = u − p + α M and 0 = v + β M: the branch goes on where v has
+/// the sign of −β, with p = u (1 + α − |β|)/(1 − |β|). Straight on, v = 0, both regimes are as
+/// near; the determinant 1 + α ± |β| changes its sign in one of them alone.
+struct TwoRegimes {
+  double alpha = 0.0;
+  double beta = 0.0;
+
+  [[nodiscard]] ParametricSystem system() const {
+    return [*this](const Eigen::VectorXd& x, double p) {
+      const double side = x[1] * beta < 0.0 ? -beta : beta;  // a tie is taken for the wrong one
+      const Eigen::RowVector2d slope(1.0, side > 0.0 ? 1.0 : -1.0);
+      const bool acts = slope.dot(x) > 0.0;
+      const Eigen::Vector2d force(alpha, beta);
+      BalanceEvaluation at;
+      at.residual = Eigen::Vector2d(x[0] - p, x[1]);
+      Eigen::Matrix2d jacobian = Eigen::Matrix2d::Identity();
+      if (acts) {
+        at.residual += force * slope.dot(x);
+        jacobian += force * slope;
+      }
+      at.jacobian = jacobian;
+      at.parameter_derivative = Eigen::Vector2d(-1.0, 0.0);
+      at.contact_force = Eigen::Vector2d::Zero();
+      return at;
+    };
+  }
+};
+
+TEST(BranchWalker, AKinkIsLeftIntoTheRegimeItsTangentEndsIn) {
+  int n_kinks = 0;
+  for (const auto& [alpha, beta] :
+       {std::pair{-1.0, 0.5}, {-1.0, -0.5}, {-1.2, 0.6}, {-0.9, 0.45}}) {
+    const ParametricSystem system = TwoRegimes{alpha, beta}.system();
+    for (const double share : {1.0, 1.03, 1.07, 1.11, 1.17}) {
+      SCOPED_TRACE(testing::Message() << alpha << ' ' << beta << ' ' << share);
+      const Scaling unit;
+      const double begin = -0.3 * share;
+      NewtonResult start = evaluated_at(system, {Eigen::Vector2d(begin, 0.0), begin}, unit);
+      start.converged = true;
+      BranchWalker walker(
+          system, [=](const NewtonResult&) { return unit; }, std::move(start), 1.0);
+      for (int i = 0; i < 300 && x_of(walker) < 0.3 && x_of(walker) >= begin; ++i) {
+        ASSERT_TRUE(walker.advance());
+      }
+      EXPECT_GE(x_of(walker), 0.3);
+      const double width = 1.0 - std::abs(beta);
+      EXPECT_NEAR(parameter_of(walker), (width + alpha) / width * x_of(walker), 1e-9);
+      EXPECT_NEAR(walker.now().solution.point.x[1], -beta / width * x_of(walker), 1e-9);
+      ++n_kinks;
+    }
+  }
+  EXPECT_EQ(n_kinks, 20);
+}
+
 }  // namespace
 }  // namespace microslip::solver::test_branch_walker
