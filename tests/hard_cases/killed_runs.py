@@ -8,8 +8,9 @@ Right: summary.json never says 0 of a run that was killed, nothing is torn, and 
 gives the curves, modes and maps of the undisturbed run byte for byte. Interrupts (SIGINT) leave exit code 3, a
 summary and no lock.
 
-usage: killed_runs.py MICROSLIP WORK_FOLDER [N] [SEED]      prints a table; N random kills, 40 by default, 1000 where
-MICROSLIP_CAMPAIGNS=whole; the seed is 1 by default.
+usage: killed_runs.py MICROSLIP WORK_FOLDER [N] [SEED] [SCENE]     prints a table; N random kills, 40 by default, 1000 where
+MICROSLIP_CAMPAIGNS=whole; the seed is 1 by default. SCENE is lean (modes and points in the file, by default) or blade: meshed
+by a process of its own, modes, attachment shapes, curves with three harmonics and maps.
 """
 import collections
 import filecmp
@@ -25,7 +26,7 @@ import time
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "verification"))
 from program_run import whole_campaigns, without_plots
 
-SCENE = """
+LEAN = """
 title = "lean"
 [model]
 kind = "modal"
@@ -42,6 +43,40 @@ preload_scale = [0.5, 1, 2, 4, 8, 16]
 maps = ["peak"]
 map_phases = 4
 """
+BLADE = """
+title = "blade"
+[model]
+kind = "blade"
+element_size = "12 mm"
+[material]
+youngs_modulus = "210 GPa"
+poissons_ratio = 0.3
+density = 7800
+[supports]
+clamped = ["root"]
+[modes]
+count = 6
+damping_ratio = 0.002
+[contact]
+surface = "contact"
+slip_direction = [0, 1, 0]
+friction_coefficient = 0.4
+normal_stiffness = 1e11
+tangential_stiffness = 1e11
+[excitation]
+forces = [ {{ at = "B", direction = [1, 0, 0], amplitude = 0.5 }} ]
+[response]
+output = {{ at = "A", direction = [1, 0, 0] }}
+frequency = ["{low} Hz", "345 Hz"]
+harmonics = 3
+preload = [-500, 100, 300, 1000, "stuck"]
+maps = ["peak"]
+map_phases = 4
+[accuracy]
+error_budget = "off"
+"""
+# Text, two begins of the range, of the scene and of an earlier run, and how long a run may take [s].
+SCENES = {"lean": (LEAN, (10, 11), 60), "blade": (BLADE, (290, 291), 900)}
 COMPARED = ("curves", "maps", "modes.csv", "model.h5", "scene.toml")
 OWN = {"curves/mine.csv": "mine", "plots/mine.txt": "mine too"}
 
@@ -67,16 +102,17 @@ def differences(folder, reference):
 
 
 class Campaign:
-    def __init__(self, program, work, seed):
+    def __init__(self, program, work, seed, scene):
         self.program, self.work = program, work
+        text, begins, self.patience = SCENES[scene]
         self.random = random.Random(seed)
         self.counts = collections.Counter()
         self.failures = []
         shutil.rmtree(work, ignore_errors=True)
         os.makedirs(work)
-        for name, low in (("scene", 10), ("earlier", 11)):
+        for name, low in zip(("scene", "earlier"), begins):
             with open(self.path(name + ".toml"), "w", encoding="utf-8") as file:
-                file.write(SCENE.format(low=low))
+                file.write(text.format(low=low))
         begin = time.monotonic()
         self.complete("scene", "reference")
         self.duration = time.monotonic() - begin
@@ -89,8 +125,8 @@ class Campaign:
         return [self.program, "run", self.path(scene + ".toml"), "-q", "-j", "2", "-o", self.path(folder), *options]
 
     def complete(self, scene, folder, *options):
-        finished = subprocess.run(self.command(scene, folder, *options), capture_output=True, text=True, timeout=60,
-                                  env=without_plots())
+        finished = subprocess.run(self.command(scene, folder, *options), capture_output=True, text=True,
+                                  timeout=self.patience, env=without_plots())
         if finished.returncode != 0:
             raise RuntimeError(f"run {scene}, {options} ended with {finished.returncode}: {finished.stderr}")
 
@@ -100,7 +136,7 @@ class Campaign:
                                    stderr=subprocess.DEVNULL, env=without_plots())
         time.sleep(self.random.uniform(0.0, 1.1 * self.duration))
         process.send_signal(stopping)
-        return process.wait(timeout=60)
+        return process.wait(timeout=self.patience)
 
     def look(self, folder, code):
         """What a stopped run may look like."""
@@ -175,6 +211,7 @@ class Campaign:
 if __name__ == "__main__":
     if len(sys.argv) < 3:
         sys.exit(__doc__)
-    asked = [int(word) for word in sys.argv[3:]]
+    asked = [int(word) for word in sys.argv[3:5]]
     cases = asked[0] if asked else 1000 if whole_campaigns() else 40
-    sys.exit(Campaign(sys.argv[1], sys.argv[2], asked[1] if len(asked) > 1 else 1).run(cases))
+    scene = sys.argv[5] if len(sys.argv) > 5 else "lean"
+    sys.exit(Campaign(sys.argv[1], sys.argv[2], asked[1] if len(asked) > 1 else 1, scene).run(cases))
