@@ -276,7 +276,7 @@ bool BranchWalker::leave_kink(const BranchVector& way, double beyond, double ori
                         trial.orientation == orientation;
     if (!onward || (orientation != orientation_ && !is_other_part(trial, angle))) continue;
     remember(Remedy::kink_turn);
-    if (dot(way, now_.tangent) < 0.0) kink_ = {now_.solution, way, now_.scaling};
+    kink_ = {now_.solution, way, now_.scaling};
     step_ = distance;
     accept(std::move(trial));
     return true;
@@ -323,6 +323,15 @@ std::optional<WalkerPoint> BranchWalker::corrected(const BranchVector& start,
   return WalkerPoint{std::move(solution), std::move(tangent.direction), scaling};
 }
 
+/// Beside the step that leaves a kink lies the part that was walked, and Newton's method may find
+/// it: seen from the kink it is more than 45° off the chord, which the part ahead is not.
+/// @param chord  of the step, of length one.
+bool BranchWalker::strays(const WalkerPoint& point, const BranchVector& chord) const {
+  const BranchVector way = difference(point.solution.point, before_.solution.point, now_.scaling);
+  const double along = dot(way, chord);
+  return 2.0 * along * along < dot(way, way);
+}
+
 std::optional<StepPoint> BranchWalker::between(const StepPoint& a, const StepPoint& b,
                                                double share) {
   const Scaling& scaling = now_.scaling;
@@ -335,8 +344,9 @@ std::optional<StepPoint> BranchWalker::between(const StepPoint& a, const StepPoi
   const double u = (share - a.share) / width;
   for (const BranchVector& start : starts_between(Knot(a.point, chord, size, scaling),
                                                   Knot(b.point, chord, size, scaling), u, width)) {
-    if (auto point = corrected(start, chord, u < 0.5 ? a.point : b.point))
-      return StepPoint{share, std::move(*point)};
+    auto point = corrected(start, chord, u < 0.5 ? a.point : b.point);
+    if (!point || (kink_ && strays(*point, chord))) continue;
+    return StepPoint{share, std::move(*point)};
   }
   return std::nullopt;
 }

@@ -64,7 +64,7 @@ class BranchWalker {
   /// @return empty: Newton's method failed from all of them.
   [[nodiscard]] std::optional<StepPoint> between(const StepPoint& a, const StepPoint& b,
                                                  double share);
-  /// Where the last step has left a kink at which the branch turns by more than a right angle:
+  /// Where the last step has left a kink to another direction:
   /// before(), which is as near to it as the shortest step, with the tangent of the part ahead.
   /// From its own, between() finds the part that was walked.
   [[nodiscard]] const std::optional<WalkerPoint>& kink() const { return kink_; }
@@ -117,6 +117,7 @@ class BranchWalker {
   [[nodiscard]] std::optional<WalkerPoint> corrected(const BranchVector& start,
                                                      const BranchVector& chord,
                                                      const WalkerPoint& nearby);
+  [[nodiscard]] bool strays(const WalkerPoint& point, const BranchVector& chord) const;
   [[nodiscard]] NewtonResult solved(const BranchVector& predicted, const BranchVector& direction,
                                     const NewtonOptions& options, const WalkerPoint& nearby);
 

@@ -8,10 +8,11 @@ at a kink, the branch goes on with a bend. And a walk that stalls on its way aga
 behind that place. Where a motion that changes sign after half a period begins to slip, two events meet, and the determinant may
 change its sign where the branch turns back.
 At the limit of a stuck point whose friction falls with the speed four events meet, and the regime straight on is not the one
-in which the branch goes on.
+in which the branch goes on. Where folds are sought behind a kink Newton's method may find the part that was walked.
 From: random scenes, 53.54 (five points with gaps, friction in a plane), 83.15 (friction that falls with the speed: a branch
 point in a bend), 29.163 (hyperbolic law: a stall on the way against the range; with 5 % damping two events at once), 113.83 (a chain
-that parts: a step from before a kink to the part beyond it, which comes back) and 113.225 (exponential law: four events at once).
+that parts: a step from before a kink to the part beyond it, which comes back), 113.225 (exponential law: four events at once)
+and 127.215 (friction in a plane: a point that sticks with a load of the mean begins to slip, two folds and one on the part walked before).
 Right: complete, no fold is passed twice, and from end to end they are even in number.
 
 usage: sharp_tips.py MICROSLIP WORK_FOLDER
@@ -60,6 +61,10 @@ def main(program, folder):
         assert curve["folds_Hz"] and not passed_twice(curve["folds_Hz"]), curve["folds_Hz"]
         anew = {step["remedy"] for step in curve["remedies"]} & {"fixed-frequency", "homotopy", "other-branch"}
         assert anew or len(curve["folds_Hz"]) % 2 == 0, curve["folds_Hz"]
+
+    code, curve = solved(program, os.path.join(folder, "beside"), (127, 215), "response.frequency=[6.75, 6.9]")
+    print(f"127.215 from 6.75 to 6.9 Hz: {curve['points']} points, folds at {curve['folds_Hz']}")
+    assert code == 0 and len(curve["folds_Hz"]) == 2, curve["folds_Hz"]
 
 
 if __name__ == "__main__":
