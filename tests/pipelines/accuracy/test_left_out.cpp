@@ -345,9 +345,9 @@ TEST(LeftOut, WhatChangesTheCurveBesideThePeaksIsSeenWhereTheIndicatorIsNotLarge
   // What the curve with friction along r is off by, what its peak tells left out.
   double change = 0.0;
   const double top = amplitude(without);
-  for (const solver::ResponsePoint& point : curve.curve.points) {
-    const double there = amplitude_at(with.curves.at(0).curve, point.frequency);
-    change = std::max(change, std::abs(there - point.amplitude) / top);
+  for (const solver::ResponsePoint& one : curve.curve.points) {
+    const double there = amplitude_at(with.curves.at(0).curve, one.frequency);
+    change = std::max(change, std::abs(there - one.amplitude) / top);
   }
   double of_peaks = 0.0;
   for (const ErrorRow& row : known) of_peaks = std::max(of_peaks, std::abs(row.effect));
