@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Mapping
+from typing import Any, Mapping, Sequence
 
 from matplotlib import colormaps
 
@@ -16,6 +16,18 @@ def load_of(curve: Mapping[str, Any]) -> Any:
     """What tells the curves of a family apart: a scale of the preload, its sum [N], or a limit."""
     scale = curve.get("preload_scale")
     return curve["preload_N"] if scale is None else scale
+
+
+def shades(name: str, loads: Sequence[float], first: float, last: float) -> dict[float, Any]:
+    """Colours of one map, as far from one another as they go: gaps are told from pressure."""
+    step = (last - first) / max(len(loads) - 1, 1)
+    return {load: colormaps[name](first + i * step) for i, load in enumerate(loads)}
+
+
+def colours_of(loads: Sequence[float]) -> dict[float, Any]:
+    """loads: in order."""
+    gaps = [load for load in loads if load < 0]
+    return {**shades("magma", gaps, 0.5, 0.85), **shades("viridis", loads[len(gaps):], 0.0, 0.93)}
 
 
 class Run:
@@ -31,9 +43,7 @@ class Run:
         largest = max((table["amplitude_m"].max() for _, table in self.curves), default=1.0)
         self.unit, self.size = length_unit(largest)
         loads = sorted({load_of(c) for c, _ in self.curves if is_number(load_of(c))})
-        viridis = colormaps["viridis"]
-        self.colours = {load: viridis(0.0 if len(loads) == 1 else 0.93 * i / (len(loads) - 1))
-                        for i, load in enumerate(loads)}
+        self.colours = colours_of(loads)
 
     def read_curve(self, curve: Mapping[str, Any]) -> dict[str, Any]:
         path = os.path.join(self.folder, "curves", curve["name"] + ".csv")

@@ -56,9 +56,17 @@ def light_grid(axes: Axes, colour: str = "0.92") -> None:
     axes.set_axisbelow(True)
 
 
+def data_of(axis: Axis) -> tuple[float, float]:
+    """Of an axis and of those that share it."""
+    shared = getattr(axis.axes, f"get_shared_{axis.axis_name}_axes")()
+    ends = np.array([getattr(axes, f"{axis.axis_name}axis").get_data_interval()
+                     for axes in shared.get_siblings(axis.axes)])
+    return ends[:, 0].min(), ends[:, 1].max()
+
+
 def log_scale(axis: Axis) -> None:
     """Logarithmic, with plain numbers at 1, 2, 5 where there is room and at powers of ten else."""
-    low, high = axis.get_data_interval()
+    low, high = data_of(axis)
     if not high > 0:
         return  # nothing moves: a logarithm has nothing to show
     getattr(axis.axes, f"set_{axis.axis_name}scale")("log")

@@ -10,10 +10,11 @@ from matplotlib.lines import Line2D
 
 from microslip.files import RunError, shown
 from microslip.plots.output import save
-from microslip.plots.style import legend_below, light_grid, subplots
+from microslip.plots.style import legend_below, light_grid, log_scale, subplots
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 COLOURS = {"element_size": "#4c72b0", "modes": "#dd8452", "attachment_degree": "#ccb974", "cells": "#55a868",
            "fit": "#64b5cd", "harmonics": "#c44e52", "second_direction": "#8172b3"}
@@ -32,14 +33,15 @@ def read_knob(path: str) -> list[dict[str, Any]]:
 
 def draw_knob(axes: Axes, rows: Sequence[Mapping[str, Any]], colour: str) -> None:
     for key, face in (("true_error", colour), ("estimated_error", "white")):
-        told = [(row["seconds"], max(100.0 * abs(row[key]), SMALLEST)) for row in rows if row[key] is not None]
+        told = sorted((row["seconds"], max(100.0 * abs(row[key]), SMALLEST)) for row in rows
+                      if row[key] is not None and row["seconds"])  # a line goes to the right
         if told:
             axes.plot(*zip(*told), color=colour, marker="o", markersize=4, markerfacecolor=face, linewidth=0.9,
                       linestyle="-" if key == "true_error" else ":")
 
 
-def plot_work_precision(folder: str) -> bool:
-    """FOLDER/work_precision.svg and .png. Whether it is drawn."""
+def work_precision_figure(folder: str) -> Figure:
+    """Of the tables in a folder. RunError without any."""
     knobs = {name: read_knob(os.path.join(folder, name + ".csv")) for name in COLOURS
              if os.path.exists(os.path.join(folder, name + ".csv"))}
     curves = list(dict.fromkeys(row["curve"] for rows in knobs.values() for row in rows))
@@ -51,11 +53,11 @@ def plot_work_precision(folder: str) -> bool:
     for axes, curve in zip(grid.flat, curves):
         for name, rows in knobs.items():
             draw_knob(axes, [row for row in rows if row["curve"] == curve], COLOURS[name])
-        axes.set_xscale("log")
-        axes.set_yscale("log")
+        log_scale(axes.xaxis)
         axes.set_title(curve, loc="left")
         axes.set_xlabel("seconds")
         light_grid(axes)
+    log_scale(grid[0, 0].yaxis)  # shared
     for axes in list(grid.flat)[len(curves):]:
         axes.set_visible(False)
     for row in grid:
@@ -65,5 +67,10 @@ def plot_work_precision(folder: str) -> bool:
     handles.append(Line2D([], [], color="0.4", marker="o", markersize=4, markerfacecolor="white", linestyle=":",
                           label="as told"))
     legend_below(figure, handles)
-    save(figure, folder, "work_precision")
+    return figure
+
+
+def plot_work_precision(folder: str) -> bool:
+    """FOLDER/work_precision.svg and .png. Whether it is drawn."""
+    save(work_precision_figure(folder), folder, "work_precision")
     return True
