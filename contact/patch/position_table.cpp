@@ -147,6 +147,11 @@ double PositionTable::on_triangles(double p, double r) const {
   return on_edges(p, r);
 }
 
+Eigen::AlignedBox2d PositionTable::box() const {
+  return {Eigen::Vector2d(p_.minCoeff(), r_.minCoeff()),
+          Eigen::Vector2d(p_.maxCoeff(), r_.maxCoeff())};
+}
+
 Eigen::VectorXd PositionTable::at(const Eigen::VectorXd& p, const Eigen::VectorXd& r) const {
   Eigen::VectorXd result(p.size());
   for (Eigen::Index i = 0; i < p.size(); ++i) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 namespace microslip::contact {
 
@@ -22,6 +23,9 @@ class PositionTable {
   ///         twice (names both rows, from 1).
   /// @note O(n²) for n scattered points; a grid costs nothing.
   PositionTable(Eigen::VectorXd p, Eigen::VectorXd r, Eigen::VectorXd values);
+
+  /// Of the positions, p before r [m].
+  [[nodiscard]] Eigen::AlignedBox2d box() const;
 
   /// n values at any positions.
   [[nodiscard]] Eigen::VectorXd at(const Eigen::VectorXd& p, const Eigen::VectorXd& r) const;

@@ -317,10 +317,16 @@ void check_coincident_nodes(const Eigen::MatrixX3d& nodes) {
     }
   }
   if (pairs == 0) return;
+  // Fewer than a face has corners: bodies that touch with a mesh each, which meet in places only.
+  const bool touch = pairs < 3;
+  const char* const remedy =
+      touch ? "parts that touch there are not joined, and merging these nodes would not join them: "
+              "give the parts a common mesh (gmsh: BooleanFragments, CAD: one body)"
+            : "merge duplicate nodes before export";
   std::ostringstream text;
   text << "bad-mesh: " << counted(pairs, "pair of nodes coincides", "pairs of nodes coincide")
        << " but " << (pairs == 1 ? "is" : "are") << " not joined, the first at ("
-       << nodes.row(first) << ") m; merge duplicate nodes before export";
+       << nodes.row(first) << ") m; " << remedy;
   throw MeshError(text.str());
 }
 

@@ -10,6 +10,7 @@
 #include "pipelines/system/scene_error.hpp"
 #include "pipelines/text/csv_table.hpp"
 #include "pipelines/text/expression.hpp"
+#include "pipelines/text/required_file.hpp"
 #include "pipelines/text/section_reader.hpp"
 #include "pipelines/text/units.hpp"
 
@@ -34,23 +35,34 @@ contact::PositionTable position_table(const std::filesystem::path& file) {
   }
 }
 
+FieldFunction field_of(std::shared_ptr<const contact::PositionTable> table) {
+  return [table = std::move(table)](const Eigen::VectorXd& p, const Eigen::VectorXd& r) {
+    return table->at(p, r);
+  };
+}
+
 /// { expression = … } or { file = … }.
-FieldFunction function_in(SectionReader& s, std::string_view key, const toml::table& table,
-                          const std::filesystem::path& folder, const std::string& place) {
+void set_function(SectionReader& s, std::string_view key, const toml::table& table,
+                  const std::filesystem::path& folder, Field& field) {
   const bool expression = table.contains("expression");
   const auto text = table[expression ? "expression" : "file"].value<std::string>();
   if (!text || table.size() != 1) {
     s.fail(key, "expected { expression = \"…\" } or { file = \"….csv\" }", &table);
   }
-  if (expression) return field_of_expression(*text, place);
+  if (expression) {
+    field.value = field_of_expression(*text, field.place);
+    return;
+  }
   const std::filesystem::path file =
       std::filesystem::path(*text).is_absolute() ? std::filesystem::path(*text) : folder / *text;
-  FieldFunction function = field_of_table(file);
+  require_file(file, field.place);
+  const auto points = std::make_shared<const contact::PositionTable>(position_table(file));
+  field.value = field_of(points);
+  field.table_box = points->box();
   toml::table complete;
   complete.is_inline(true);
   complete.insert_or_assign("file", file.string());
   s.complete(key, std::move(complete));
-  return function;
 }
 
 }  // namespace
@@ -82,8 +94,7 @@ FieldFunction field_of_expression(const std::string& text, const std::string& pl
 }
 
 FieldFunction field_of_table(const std::filesystem::path& file) {
-  return [table = std::make_shared<const contact::PositionTable>(position_table(file))](
-             const Eigen::VectorXd& p, const Eigen::VectorXd& r) { return table->at(p, r); };
+  return field_of(std::make_shared<const contact::PositionTable>(position_table(file)));
 }
 
 Field read_field(SectionReader& s, std::string_view key, const std::filesystem::path& folder,
@@ -91,7 +102,7 @@ Field read_field(SectionReader& s, std::string_view key, const std::filesystem::
   const toml::node& node = *s.node(key);
   Field field{.place = s.place(key)};
   if (const toml::table* table = node.as_table()) {
-    field.value = function_in(s, key, *table, folder, field.place);
+    set_function(s, key, *table, folder, field);
   } else if (node.is_string()) {
     const std::string text = *node.value<std::string>();
     try {

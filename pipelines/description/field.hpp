@@ -6,10 +6,12 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <variant>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "pipelines/text/scene_keys.hpp"
 
@@ -23,8 +25,9 @@ using FieldFunction =
 
 struct Field {
   std::variant<double, FieldFunction> value = 0.0;
-  std::string place;        ///< e.g. "scene.toml:12: contact.friction_coefficient", for messages
-  double low = -unbounded;  ///< low ≤ value ≤ high everywhere
+  std::string place;  ///< e.g. "scene.toml:12: contact.friction_coefficient", for messages
+  std::optional<Eigen::AlignedBox2d> table_box{};  ///< p, r of its table [m]; none: no table
+  double low = -unbounded;                         ///< low ≤ value ≤ high everywhere
   double high = unbounded;
 
   [[nodiscard]] bool is_zero() const;

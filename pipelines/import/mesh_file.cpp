@@ -10,6 +10,7 @@
 #include "pipelines/system/mesh_format.hpp"
 #include "pipelines/system/scene_error.hpp"
 #include "pipelines/system/temporary_folder.hpp"
+#include "pipelines/text/required_file.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -100,6 +101,7 @@ std::string unit_question(const fs::path& file, std::optional<double> of_scene,
 }
 
 mesh::Mesh read_mesh(const MeshFileModel& model) {
+  require_file(model.file, model.place);
   MeshOfFile read = read_mesh(model.file, model.length_unit);
   if (!read.length_unit) {
     throw SceneError(fmt::format(

@@ -146,8 +146,11 @@ ContactDescription read_contact(SectionReader s, const std::filesystem::path& fo
   contact::SurfaceRules& rules = contact.rules;
   contact.key = s.path();
   if (const toml::node* surface = s.node("surface"); surface->is_array()) {
-    s.fail("surface", "two facing bodies are not available in this version; name one surface",
-           surface);
+    s.fail(
+        "surface",
+        "one surface for each contact, which rubs on the ground: for several write a [[contact]] "
+        "section each; two bodies that face each other are not available in this version",
+        surface);
   }
   contact.surface = s.text("surface");
   contact.place = s.place("surface");

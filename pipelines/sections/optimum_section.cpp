@@ -56,9 +56,10 @@ std::string unit_of(const SectionReader& s, const std::string& path, std::string
     known.push_back(key.name);
   }
   const std::string near = nearest_name(names.back(), known);
+  const std::string above = path.substr(0, path.size() - names.back().size());
   s.fail("optimum",
          fmt::format("\"{}\": no key of that name{}", path,
-                     near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)),
+                     near.empty() ? "" : fmt::format("; did you mean \"{}{}\"?", above, near)),
          s.node("optimum"));
 }
 

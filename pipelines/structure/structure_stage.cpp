@@ -1,7 +1,9 @@
 #include "pipelines/structure/structure_stage.hpp"
 
+#include <algorithm>
 #include <new>
 #include <set>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -36,18 +38,30 @@
 #include "pipelines/system/result_cache.hpp"
 #include "pipelines/system/scene_error.hpp"
 #include "pipelines/system/sealed_bytes.hpp"
+#include "pipelines/text/nearest_name.hpp"
 
 namespace microslip::pipelines {
 namespace {
 
 /// Looks a name of the scene up in the mesh.
+/// The name that may be meant, as a question; "": none is near, or the mesh has that very name.
+std::string similar_name(const mesh::Mesh& mesh, const std::string& name) {
+  std::vector<std::string> names = mesh.surface_names();
+  for (std::string& set : mesh.node_set_names()) names.push_back(std::move(set));
+  if (std::ranges::find(names, name) != names.end()) return {};
+  const std::string near =
+      nearest_name(name, std::vector<std::string_view>(names.begin(), names.end()));
+  return near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near);
+}
+
 /// @throws SceneError  it is not there: where it was asked for.
 template <typename LookUp>
-void require_name(const std::string& place, const LookUp& look_up) {
+void require_name(const mesh::Mesh& mesh, const std::string& place, const std::string& name,
+                  const LookUp& look_up) {
   try {
-    static_cast<void>(look_up());
+    static_cast<void>(look_up(name));
   } catch (const mesh::MeshError& error) {
-    throw SceneError(place + ": " + error.what());
+    throw SceneError(place + ": " + error.what() + similar_name(mesh, name));
   }
 }
 
@@ -207,6 +221,16 @@ StructureModes solved_from_matrices(const mesh::Mesh& mesh, const SceneDescripti
   }
 }
 
+/// What there is to name in a scene, or how names come into a file.
+std::string surfaces_text(const mesh::Mesh& mesh) {
+  const std::vector<std::string> names = mesh.surface_names();
+  if (!names.empty()) return fmt::format("surfaces: {}", fmt::join(names, ", "));
+  if (!mesh.node_set_names().empty()) return "surfaces: none";
+  return "surfaces: none: what is held and what rubs needs a name in the file (gmsh: Physical "
+         "Surface(\"root\") = {1}; other codes: share/doc/meshes.md); force and output may stand "
+         "at coordinates";
+}
+
 }  // namespace
 
 mesh::Mesh obtain_mesh(const SceneDescription& scene, const std::filesystem::path& mesh_file) {
@@ -228,10 +252,10 @@ std::string describe_mesh(const mesh::Mesh& mesh, double density) {
   std::string text = fmt::format(
       "mesh: {} nodes, {}, volume {:.6g} m^3{}\n"
       "bounding box: x {:.6g} to {:.6g}, y {:.6g} to {:.6g}, z {:.6g} to {:.6g} m\n"
-      "surfaces: {}",
+      "{}",
       mesh.n_nodes(), mesh::counted(mesh.n_elements(), "element", "elements"), mesh.volume(),
       density > 0.0 ? fmt::format(", mass {:.6g} kg", density * mesh.volume()) : "", lower.x(),
-      upper.x(), lower.y(), upper.y(), lower.z(), upper.z(), fmt::join(mesh.surface_names(), ", "));
+      upper.x(), lower.y(), upper.y(), lower.z(), upper.z(), surfaces_text(mesh));
   const auto sets = mesh.node_set_names();
   if (!sets.empty()) text += fmt::format("\npoints and node sets: {}", fmt::join(sets, ", "));
   if (mesh.n_loose_nodes() > 0) {
@@ -244,24 +268,25 @@ std::string describe_mesh(const mesh::Mesh& mesh, double density) {
 }
 
 void check_names(const mesh::Mesh& mesh, const SceneDescription& scene) {
+  const auto nodes = [&](const std::string& name) { return mesh.node_set(name); };
+  const auto faces = [&](const std::string& name) { return mesh.surface(name); };
   for (const std::string& name : scene.clamped) {
-    require_name(scene.clamped_place, [&] { return mesh.node_set(name); });
+    require_name(mesh, scene.clamped_place, name, nodes);
   }
   for (const ForceDescription& force : scene.forces) {
-    require_name(force.place, [&] { return mesh.node_set(force.at); });
+    require_name(mesh, force.place, force.at, nodes);
   }
   for (const ForceDescription& force : scene.static_loads.forces) {
-    require_name(force.place, [&] { return mesh.node_set(force.at); });
+    require_name(mesh, force.place, force.at, nodes);
   }
   for (const PressureDescription& entry : scene.static_loads.pressures) {
-    require_name(entry.place, [&] { return mesh.surface(entry.surface); });
+    require_name(mesh, entry.place, entry.surface, faces);
   }
   if (scene.response) {
-    const OutputDescription& output = scene.response->output;
-    require_name(output.place, [&] { return mesh.node_set(output.at); });
+    require_name(mesh, scene.response->output.place, scene.response->output.at, nodes);
   }
   for (const ContactDescription& contact : scene.contacts) {
-    require_name(contact.place, [&] { return mesh.surface(contact.surface); });
+    require_name(mesh, contact.place, contact.surface, faces);
   }
   require_frames(mesh, scene);
   require_preload(mesh, scene);

@@ -238,7 +238,7 @@ constexpr std::array static_force_keys{
     KeySpec{"at", other, "m", "", -unbounded, unbounded, false, "as that of a force"},
     KeySpec{"direction", direction, "", "", 0, 0, false, "global x, y, z"},
     KeySpec{"amplitude", number, "N", "", -unbounded, unbounded, false,
-            "in all, spread evenly over the nodes"},
+            "F, the whole force on the place, e.g. \"0.5 N\""},
 };
 
 constexpr std::array pressure_keys{
@@ -482,8 +482,9 @@ constexpr std::array force_keys{
             "the nearest node"},
     KeySpec{"direction", direction, "", "", 0, 0, false, "global x, y, z"},
     KeySpec{"amplitude", number, "N", "", -unbounded, unbounded, false,
-            "in all, spread evenly over the nodes"},
-    KeySpec{"phase", number, "deg", "0", -unbounded, unbounded, false, "in degrees"},
+            "F, the whole force on the place, e.g. \"0.5 N\""},
+    KeySpec{"phase", number, "deg", "0", -unbounded, unbounded, false,
+            "in degrees, as a number or as \"90 deg\""},
 };
 
 constexpr std::array gap_keys{

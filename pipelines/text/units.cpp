@@ -2,14 +2,19 @@
 
 #include <udunits2.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <memory>
 #include <mutex>
 #include <numbers>
+#include <vector>
 
 #include <fmt/format.h>
+
+#include "pipelines/text/nearest_name.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -132,6 +137,27 @@ std::string expected_text(const std::string& unit) {
   return unit == "1" ? "a pure number, or %" : fmt::format("a unit that converts to {}", unit);
 }
 
+/// What a unit was meant to be, as a question; "": nothing is known.
+std::string similar_unit(const std::string& given, const std::string& unit) {
+  static constexpr std::array<std::string_view, 33> usual{
+      "Pa", "kPa",    "MPa",    "GPa",    "N",     "kN",     "MN",  "m",    "mm",  "um",  "cm",
+      "in", "Hz",     "kHz",    "rad/s",  "rpm",   "s",      "ms",  "min",  "h",   "kg",  "g",
+      "t",  "kg/m^3", "g/cm^3", "t/mm^3", "N/m^3", "N/mm^3", "N/m", "N/mm", "deg", "rad", "N*m"};
+  if (unit == "s" && std::ranges::any_of(given, is_digit)) {
+    return "; a time is one number and one unit, e.g. \"90 min\"";
+  }
+  std::vector<std::string_view> known;
+  for (const std::string_view one : usual) {
+    const Unit candidate = parse_unit(std::string(one));
+    const bool fits = candidate && dimension_of(candidate) ==
+                                       dimension_of(parse_unit(counterpart(candidate, unit)));
+    const auto small = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
+    if (fits && small(one.front()) == small(given.front())) known.push_back(one);
+  }
+  const std::string near = nearest_name(given, known);
+  return near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near);
+}
+
 /// Factor and offset from one unit to another of the same dimension.
 Converter converter_between(const std::string& given, const std::string& unit) {
   Unit expected = parse_unit(unit);
@@ -141,12 +167,14 @@ Converter converter_between(const std::string& given, const std::string& unit) {
   }
   const Unit found = has_stray_number(given) ? Unit() : parse_unit(given);
   if (!found) {
-    throw UnitError(fmt::format("unknown unit \"{}\"; expected {}", given, expected_text(unit)));
+    throw UnitError(fmt::format("unknown unit \"{}\"; expected {}{}", given, expected_text(unit),
+                                similar_unit(given, unit)));
   }
   expected = parse_unit(counterpart(found, unit));
   if (dimension_of(found) != dimension_of(expected)) {
-    throw UnitError(fmt::format("unit \"{}\" measures something else, in {}; expected {}", given,
-                                dimension_of(found), expected_text(unit)));
+    throw UnitError(fmt::format("unit \"{}\" measures something else, in {}; expected {}{}", given,
+                                dimension_of(found), expected_text(unit),
+                                similar_unit(given, unit)));
   }
   Converter converter(ut_get_converter(found.get(), expected.get()));
   if (!converter)

@@ -128,6 +128,15 @@ TEST(Mesh, RefusesNodesThatCoincideButAreNotJoined) {
   EXPECT_NE(message_of([] { two_parts(1.0); }).find("coincide"), std::string::npos);
 }
 
+TEST(Mesh, TellsBodiesThatTouchFromNodesThatAreDoubled) {
+  const auto told = [](double shift) { return message_of([&] { two_parts(shift); }); };
+  EXPECT_NE(told(1.0).find("parts that touch there are not joined"), std::string::npos)
+      << told(1.0);
+  EXPECT_EQ(told(1.0).find("merge duplicate"), std::string::npos) << "one pair would join a point";
+  EXPECT_NE(told(0.0).find("4 pairs"), std::string::npos) << told(0.0);
+  EXPECT_NE(told(0.0).find("merge duplicate nodes"), std::string::npos) << told(0.0);
+}
+
 TEST(Mesh, RefusesFacesOfNoElement) {
   const auto build = [] {
     single(ElementType::hex8, reference_nodes(ElementType::hex8),

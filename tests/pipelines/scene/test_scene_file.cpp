@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "pipelines/scene/scene_template.hpp"
 #include "pipelines/system/scene_error.hpp"
 #include "pipelines/text/toml_text.hpp"
@@ -377,6 +379,29 @@ TEST(BadScene, UnknownKeysAreNamedWithLineAndNearestName) {
                    {"excitation.forces.amplitud", "did you mean \"amplitude\"?"});
 }
 
+TEST(BadScene, WhatAForceOrAContactLacksIsSaidInWordsOfAnEngineer) {
+  const std::string text = replaced(blade_text, ", amplitude = \"0.5 N\"", "");
+  expect_complaint(complaint(text), {"excitation.forces.amplitude: is missing: F, the whole force",
+                                     "e.g. \"0.5 N\" [N]"});
+  expect_complaint(complaint(blade_text, {"contact.surface=[\"top\", \"shroud\"]"}),
+                   {"contact.surface", "[[contact]]"});
+}
+
+TEST(BadScene, AFileThatIsNotThereIsToldWithItsKeyAndASimilarName) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder.path() / "mu_hot.csv") << "p,r,value\n0,0,0.3\n";
+  const auto told = [&](const std::string& name) {
+    return complaint(blade_text, {fmt::format("contact.friction_coefficient={{ file = \"{}\" }}",
+                                              (folder.path() / name).string())});
+  };
+  expect_complaint(told("mu_hto.csv"),
+                   {"contact.friction_coefficient: ", "mu_hto.csv: no such file",
+                    "did you mean \"mu_hot.csv\"?"});
+  expect_complaint(told("quite_another.csv"), {"beside it: mu_hot.csv"});
+  expect_complaint(told("mu.txt"), {"ends in .txt"});
+  expect_complaint(told("there/mu.csv"), {"there is no folder"});
+}
+
 TEST(BadScene, MissingKeysAreNamedWithTheirSection) {
   const std::string text = replaced(blade_text, "density = 7800\n", "");
   expect_complaint(complaint(text), {"scene.toml:" + std::to_string(line_of(text, "[material]")),
@@ -737,6 +762,7 @@ TEST(BadScene, SearchesOfNoNumber) {
         words);
   };
   bad("contact.frction_coefficient", "[0.1, 1]", {"contact.frction", "friction_coefficient"});
+  bad("contact.mu", "[0.1, 1]", {"did you mean \"contact.friction_coefficient\"?"});
   bad("response.frequency", "[1, 2]", {"outside [response]"});
   bad("modes.count", "[5, 10]", {"whole number"});
   bad("contact.friction_coefficient", "[-1, 1]", {"optimum_range", "-1 is no value"});

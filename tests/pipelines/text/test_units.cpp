@@ -116,6 +116,20 @@ TEST(Units, AnUnknownUnitIsNamed) {
   EXPECT_NE(message.find("unknown"), std::string::npos) << message;
 }
 
+TEST(Units, AMisspeltUnitIsToldWithTheOneThatIsMeant) {
+  const auto expect_meant = [](const char* text, const char* unit, const std::string& meant) {
+    const std::string said = complaint(text, unit);
+    EXPECT_NE(said.find("did you mean \"" + meant + "\"?"), std::string::npos) << said;
+  };
+  expect_meant("210 MPA", "Pa", "MPa");
+  expect_meant("210 GPA", "Pa", "GPa");
+  expect_meant("1 khz", "Hz", "kHz");
+  expect_meant("300 HZ", "Hz", "Hz");
+  EXPECT_NE(complaint("1h30", "s").find("e.g. \"90 min\""), std::string::npos)
+      << complaint("1h30", "s");
+  EXPECT_EQ(complaint("2 furlongs_", "Pa").find("did you mean"), std::string::npos);
+}
+
 TEST(Units, NumbersInsideAUnitAreNotFactors) {  // each would be another value without a word
   for (const char* text : {"2.5.1 mm", "2 5 mm", "5-2 mm", "5+2 mm", "2,5 mm", "5 *2 mm", "5 m 2",
                            "5 m.2", "1..5 mm"}) {
