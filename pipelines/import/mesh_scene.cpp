@@ -246,7 +246,8 @@ class SceneMaker {
     const std::string output = place({"output", "respon", "sensor", "tip"});
     const std::string bends = axis_of_largest(-extent_);  // a blade bends where it is thin
     values_["excitation.forces"] = fmt::format(
-        "[\n  {{ at = {}, direction = {}, amplitude = \"1 N\", phase = 0 }},\n]", force, bends);
+        "[\n  {{ at = {}, direction = {}, amplitude = \"1 N\", phase = \"0 deg\" }},\n]", force,
+        bends);
     values_["response.output"] = fmt::format("{{ at = {}, direction = {} }}", output, bends);
     for (const char* key : {"excitation.forces", "response.output"}) {
       remarks_[key] = "at coordinates, which mean the nearest node" +

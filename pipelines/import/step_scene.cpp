@@ -149,7 +149,8 @@ class StepSceneMaker {
     extent_.minCoeff(&thin);  // a blade bends where it is thin
     const std::string bends = unit_vector(thin);
     values_["excitation.forces"] = fmt::format(
-        "[\n  {{ at = {}, direction = {}, amplitude = \"1 N\", phase = 0 }},\n]", at, bends);
+        "[\n  {{ at = {}, direction = {}, amplitude = \"1 N\", phase = \"0 deg\" }},\n]", at,
+        bends);
     values_["response.output"] = fmt::format("{{ at = {}, direction = {} }}", at, bends);
     const char* remark = "CHANGE: here the corner farthest from what is held";
     remarks_["excitation.forces"] = remark;

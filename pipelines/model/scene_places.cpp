@@ -58,6 +58,7 @@ std::string vector_text(const Eigen::Vector3d& v) {
 
 std::string line_of(const ScenePlace& place) {
   std::string text = fmt::format("{} {}: ", name(place.role), place.name);
+  if (!place.load.empty()) text += place.load + ' ';
   if (place.direction != Eigen::Vector3d::Zero() && place.role != PlaceRole::contact) {
     text += fmt::format("along {}, ", vector_text(place.direction));
   }
@@ -133,6 +134,8 @@ std::vector<ScenePlace> scene_places(const mesh::Mesh& mesh, const SceneDescript
   for (const ForceDescription& force : scene.forces) {
     places.push_back(place_of(mesh, PlaceRole::force, force.at));
     places.back().direction = force.direction;
+    places.back().load =
+        fmt::format("{:g} N, phase {:g} degrees,", force.amplitude, force.phase_deg);
   }
   if (scene.response) {
     places.push_back(place_of(mesh, PlaceRole::output, scene.response->output.at));
@@ -141,6 +144,7 @@ std::vector<ScenePlace> scene_places(const mesh::Mesh& mesh, const SceneDescript
   for (const ForceDescription& force : scene.static_loads.forces) {
     places.push_back(place_of(mesh, PlaceRole::static_force, force.at));
     places.back().direction = force.direction;
+    places.back().load = fmt::format("{:g} N", force.amplitude);
   }
   for (const PressureDescription& entry : scene.static_loads.pressures) {
     places.push_back(place_of(mesh, PlaceRole::pressure, entry.surface));

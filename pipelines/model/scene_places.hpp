@@ -27,6 +27,7 @@ struct ScenePlace {
       centre;  ///< [m]; of faces the centroid, of nodes and of what acts at a set their mean
   Eigen::Vector3d direction =
       Eigen::Vector3d::Zero();  ///< of a force, of the output, of slip; of pressure the mean one
+  std::string load{};           ///< of a force: amplitude and phase, for people
 };
 
 /// @throws mesh::MeshError  a name that is not there (check_names() tells it better).

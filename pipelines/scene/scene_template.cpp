@@ -30,7 +30,7 @@ const Examples& mesh_examples() {
       {"contact.normal_stiffness", "\"1e11 N/m^3\""},
       {"contact.tangential_stiffness", "\"1e11 N/m^3\""},
       {"excitation.forces",
-       "[\n  { at = \"B\", direction = [1, 0, 0], amplitude = \"0.5 N\", phase = 0 },\n]"},
+       "[\n  { at = \"B\", direction = [1, 0, 0], amplitude = \"0.5 N\", phase = \"0 deg\" },\n]"},
       {"response.output", "{ at = \"A\", direction = [1, 0, 0] }"},
       {"response.frequency", "[\"280 Hz\", \"340 Hz\"]"},
       {"response.preload", "[\"free\", 100, 1000, \"stuck\"]"},
@@ -50,7 +50,7 @@ const Examples& step_examples() {
         "contact = { point = [\"30 mm\", \"30 mm\", \"0 mm\"] }\n";
     examples["excitation.forces"] =
         "[\n  { at = [\"-13.0 mm\", \"149.1 mm\", \"-13.8 mm\"], direction = [1, 0, 0], "
-        "amplitude = \"0.5 N\", phase = 0 },\n]";
+        "amplitude = \"0.5 N\", phase = \"0 deg\" },\n]";
     examples["response.output"] =
         "{ at = [\"-1.5 mm\", \"149.1 mm\", \"-1.0 mm\"], direction = [1, 0, 0] }";
     return examples;
@@ -107,7 +107,7 @@ const Examples& chain_examples() {
       {"model.masses", "[\"1 kg\", \"1 kg\"]"},
       {"model.springs", "[\"41 kN/m\", \"41 kN/m\"]"},
       {"modes.damping_ratio", "\"2 %\""},
-      {"excitation.forces", "[\n  { at = \"m2\", amplitude = \"10 N\", phase = 0 },\n]"},
+      {"excitation.forces", "[\n  { at = \"m2\", amplitude = \"10 N\", phase = \"0 deg\" },\n]"},
       {"contact.points",
        "[\n  { slip = \"m1\", tangential_stiffness = \"40 kN/m\", friction_coefficient = 0.5 "
        "},\n]"},
@@ -133,7 +133,8 @@ const Examples& block_examples() {
       {"contact.friction_coefficient", "0.5"},
       {"contact.roughness", "{ law = \"cubic\", height = \"0.5 mm\" }"},
       {"excitation.forces",
-       "[\n  { at = [0, 0, 0], force = [\"10 N\", 0, 0], moment = [0, 0, 0], phase = 0 },\n]"},
+       "[\n  { at = [0, 0, 0], force = [\"10 N\", 0, 0], moment = [0, 0, 0], phase = \"0 deg\" "
+       "},\n]"},
       {"response.output", "{ at = [0, 0, 0], direction = [1, 0, 0] }"},
       {"response.frequency", "[\"18 Hz\", \"40 Hz\"]"},
       {"response.preload", "[\"free\", 20, 40, \"stuck\"]"},

@@ -327,7 +327,8 @@ constexpr std::array bar_excitation_keys{
 };
 
 constexpr std::array block_excitation_keys{
-    KeySpec{"forces", other, "", "[]", 0, 0, false, "list of harmonic loads F sin(θ + phase)"},
+    KeySpec{"forces", other, "", "[]", 0, 0, false,
+            "list of harmonic loads F sin(θ + phase), the phase in degrees"},
 };
 
 constexpr std::array block_force_keys{
@@ -337,7 +338,8 @@ constexpr std::array block_force_keys{
             "amplitudes along p, q, r"},
     KeySpec{"moment", other, "N*m", "[0, 0, 0]", -unbounded, unbounded, false,
             "amplitudes about p, q, r"},
-    KeySpec{"phase", number, "deg", "0", -unbounded, unbounded, false, "in degrees"},
+    KeySpec{"phase", number, "deg", "0", -unbounded, unbounded, false,
+            "in degrees, as a number or as \"90 deg\""},
 };
 
 constexpr std::array block_output_keys{
@@ -370,7 +372,8 @@ constexpr std::array chain_contact_point_keys{
 constexpr std::array chain_force_keys{
     KeySpec{"at", text, "", "", 0, 0, false, "coordinate"},
     KeySpec{"amplitude", number, "N", "", -unbounded, unbounded, false, "F in F sin(θ + phase)"},
-    KeySpec{"phase", number, "deg", "0", -unbounded, unbounded, false, "in degrees"},
+    KeySpec{"phase", number, "deg", "0", -unbounded, unbounded, false,
+            "in degrees, as a number or as \"90 deg\""},
 };
 
 constexpr KeySpec roughness_key{
@@ -473,7 +476,8 @@ constexpr std::array contact_keys{
 };
 
 constexpr std::array excitation_keys{
-    KeySpec{"forces", other, "", "[]", 0, 0, false, "list of harmonic forces F sin(θ + phase)"},
+    KeySpec{"forces", other, "", "[]", 0, 0, false,
+            "list of harmonic forces F sin(θ + phase), the phase in degrees"},
 };
 
 constexpr std::array force_keys{

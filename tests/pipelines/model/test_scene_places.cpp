@@ -6,10 +6,12 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <Eigen/Geometry>
 
 #include "mesh/outer_faces.hpp"
 #include "pipelines/import/named_points.hpp"
+#include "pipelines/model/nodal_load.hpp"
 #include "pipelines/scene/scene_file.hpp"
 #include "tests/support/box_mesh.hpp"
 
@@ -72,7 +74,7 @@ TEST(ScenePlaces, EachHasALineWithNodesAreaAndCentre) {
   const std::vector<std::string> lines = describe_places(box(scene), scene);
   const std::vector<std::string> expected{
       "clamped z0: 6 nodes, 0.02 m^2 at (0.05, 0.1, 0) m",
-      "force corner: along (1, 0, 0), 1 node at (0.1, 0.2, 0.4) m",
+      "force corner: 1 N, phase 0 degrees, along (1, 0, 0), 1 node at (0.1, 0.2, 0.4) m",
       "output (0, 0, 0.4): along (0, 1, 0), 1 node at (0, 0, 0.4) m",
       "contact x1: 15 nodes, 0.08 m^2 at (0.1, 0.1, 0.2) m, flat to 0 m",
       "  p (0, 0, 1) slip, q (1, 0, 0) out of the body, r (0, 1, 0)",
@@ -82,6 +84,19 @@ TEST(ScenePlaces, EachHasALineWithNodesAreaAndCentre) {
       "  preload 1200 N: 1e+04 Pa; -600 N: a gap of 5e-07 m; a gap of 2e-06 m",
       "point (0, 0, 0.4): the nearest node, at (0, 0, 0.4) m, is 0 m away"};
   EXPECT_EQ(lines, expected);
+}
+
+TEST(ScenePlaces, APhaseWithoutAUnitIsInDegrees) {
+  for (const char* phase : {"90", "90 deg", "1.5707963267948966 rad"}) {
+    const SceneDescription scene =
+        parse_scene(text, "box.toml", "/", {fmt::format("excitation.forces[0].phase={}", phase)});
+    EXPECT_TRUE(describe_places(box(scene), scene)[1].starts_with(
+        "force corner: 1 N, phase 90 degrees, along"))
+        << phase;
+    const Eigen::MatrixX2d loads = excitation_loads(box(scene), scene.forces);
+    EXPECT_NEAR(loads.col(0).norm(), 0.0, 1e-15) << phase;  // F sin(θ + 90°) = F cos θ
+    EXPECT_NEAR(loads.col(1).norm(), 1.0, 1e-15) << phase;
+  }
 }
 
 TEST(ScenePlaces, ASetOfNodesThatHoldsFacesHasTheirAreaAndCentroid) {
@@ -96,7 +111,9 @@ TEST(ScenePlaces, ASetOfNodesThatHoldsFacesHasTheirAreaAndCentroid) {
   const mesh::Mesh mesh(nodes, with_surfaces.elements(), {}, sets);
   const std::vector<std::string> lines = describe_places(mesh, scene);
   EXPECT_EQ(lines[0], "clamped z0: 6 nodes, 0.02 m^2 at (0.05, 0.1, 0) m");
-  EXPECT_EQ(lines[1], "force x1: along (1, 0, 0), 15 nodes, 0.08 m^2 at (0.1, 0.1, 0.2) m")
+  EXPECT_EQ(
+      lines[1],
+      "force x1: 1 N, phase 0 degrees, along (1, 0, 0), 15 nodes, 0.08 m^2 at (0.1, 0.1, 0.2) m")
       << "the nodes of whole faces are loaded as these: the force acts at their centroid";
   EXPECT_EQ(lines[3], "contact x1: 15 nodes, 0.08 m^2 at (0.1, 0.1, 0.2) m, flat to 0 m");
 }
@@ -111,7 +128,9 @@ TEST(ScenePlaces, ForcesTakeTheSurfaceAndSupportsTheSetOfOneName) {
   const mesh::Mesh mesh(plain.nodes(), plain.elements(), surfaces, sets);
   const std::vector<std::string> lines = describe_places(mesh, scene);
   EXPECT_TRUE(lines[0].starts_with("clamped z0: 1 node")) << lines[0];
-  EXPECT_EQ(lines[1], "force z0: along (1, 0, 0), 6 nodes, 0.02 m^2 at (0.05, 0.1, 0) m");
+  EXPECT_EQ(
+      lines[1],
+      "force z0: 1 N, phase 0 degrees, along (1, 0, 0), 6 nodes, 0.02 m^2 at (0.05, 0.1, 0) m");
 }
 
 TEST(ScenePlaces, StaticLoadsAreAmongThem) {
@@ -121,7 +140,7 @@ TEST(ScenePlaces, StaticLoadsAreAmongThem) {
                    "static.pressure=[{surface=\"x0\", value=10}, {surface=\"y0\", value=-10}]",
                    "contact[0].preload=static", "contact[1].preload=static"});
   const std::vector<std::string> lines = describe_places(box(scene), scene);
-  EXPECT_EQ(lines[3], "static force corner: along (0, 0, 1), 1 node at (0.1, 0.2, 0.4) m");
+  EXPECT_EQ(lines[3], "static force corner: 1 N along (0, 0, 1), 1 node at (0.1, 0.2, 0.4) m");
   EXPECT_EQ(lines[4], "pressure x0: along (1, 0, 0), 15 nodes, 0.08 m^2 at (0, 0.1, 0.2) m");
   EXPECT_EQ(lines[5], "pressure y0: along (0, -1, 0), 10 nodes, 0.04 m^2 at (0.05, 0, 0.2) m")
       << "suction pulls";
