@@ -1,6 +1,8 @@
 #include "pipelines/model/scene_warnings.hpp"
 
 #include <algorithm>
+#include <string>
+#include <utility>
 #include <variant>
 
 #include <fmt/format.h>
@@ -29,6 +31,18 @@ bool is_undamped(const SceneDescription& scene) {
   return std::ranges::find(ratios, 0.0) != ratios.end();
 }
 
+/// Integration in time has all harmonics. A best value is searched with those the key gives, which
+/// its search tells.
+std::string harmonics_question(const SceneDescription& scene) {
+  const HarmonicSettings& harmonics = scene.settings.harmonics;
+  const bool in_time = scene.response->method == ResponseDescription::Method::time;
+  if (!in_time || harmonics.highest <= 1 || scene.response->optimum) return {};
+  return fmt::format(
+      "response.harmonics: {} is written beside method = \"time\", which has all harmonics and "
+      "keeps {} of its motion: leave the key out, or set method = \"harmonic_balance\"",
+      harmonics.highest, std::max(harmonics.highest, least_harmonics_of_time));
+}
+
 }  // namespace
 
 std::vector<std::string> scene_warnings(const SceneDescription& scene) {
@@ -54,6 +68,9 @@ std::vector<std::string> scene_warnings(const SceneDescription& scene) {
         "a mode has no damping: where friction takes no energy, as in the free and the stuck "
         "limit, its peak may "
         "have no end, and the curve be incomplete then");
+  }
+  if (std::string text = harmonics_question(scene); !text.empty()) {
+    warnings.push_back(std::move(text));
   }
   const auto [low, high] =
       std::minmax(scene.response->frequency_begin_hz, scene.response->frequency_end_hz);

@@ -533,6 +533,19 @@ TEST(Effects, AMapOutsideTheRangeIsWarnedOf) {
   const std::vector<std::string> warnings = warnings_of("[12, 15]");
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_NE(warnings[0].find("15 Hz lies outside the range 10 to 14 Hz"), std::string::npos)
+TEST(Effects, HarmonicsBesideIntegrationInTimeAreWarnedOf) {
+  const auto warnings = [](const Overrides& overrides) {
+    return scene_warnings(parse_scene(text, "scene.toml", "/nowhere", overrides));
+  };
+  const auto told = warnings({"response.method=time", "response.harmonics=5"});
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_NE(told[0].find("response.harmonics: 5"), std::string::npos) << told[0];
+  EXPECT_NE(told[0].find("keeps 15"), std::string::npos) << told[0];
+  EXPECT_TRUE(warnings({"response.method=time"}).empty());
+  EXPECT_TRUE(warnings({"response.method=time", "response.harmonics=auto"}).empty());
+  EXPECT_TRUE(warnings({"response.harmonics=5"}).empty());
+}
+
       << warnings[0];
 }
 
