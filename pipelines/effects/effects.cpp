@@ -213,16 +213,20 @@ std::vector<std::string> effect_lines(const std::vector<EffectRecord>& effects) 
   const auto number = [](const std::optional<double>& value, const char* unit) {
     return value ? fmt::format("{:.3g}{}", *value, unit) : std::string("-");
   };
+  // Curves may be quicker with an effect: areas that open bit by bit, instead of a point at once.
+  const auto cost = [&](const std::optional<double>& seconds) {
+    return seconds && *seconds < 0.0 ? fmt::format("saves {:.2g} s", -*seconds)
+                                     : number(seconds, " s");
+  };
   std::vector<std::string> lines{fmt::format("{:<18}{:<6}{:<6}{:>9}{:>9}{:>10}  {}", "effect",
                                              "sim.", "set", "indicator", "limit", "cost", "why")};
   for (const EffectRecord& effect : effects) {
     const char* simulated = effect.simulated == yes  ? "yes"
                             : effect.simulated == no ? "no"
                                                      : "later";
-    lines.push_back(fmt::format("{:<18}{:<6}{:<6}{:>9}{:>9}{:>10}  {}", effect.name, simulated,
+    lines.push_back(fmt::format("{:<18}{:<6}{:<6}{:>9}{:>9} {:>9}  {}", effect.name, simulated,
                                 effect.setting, number(effect.indicator, ""),
-                                number(effect.threshold, ""), number(effect.seconds, " s"),
-                                effect.reason));
+                                number(effect.threshold, ""), cost(effect.seconds), effect.reason));
     if (effect.bound && std::isfinite(*effect.bound)) {
       lines.back() += fmt::format("; having it would change the highest peaks by {} at most",
                                   percent_text(*effect.bound));

@@ -334,6 +334,15 @@ TEST(Effects, TheForecastTellsWhatAnEffectCosts) {
 }
 
 // Above its limit an effect that is given is missed.
+TEST(Effects, ACostBelowZeroIsToldAsWhatIsSaved) {
+  EffectRecord effect;
+  effect.name = "moments";
+  effect.seconds = -10.4;
+  const std::string line = effect_lines({effect}).back();
+  EXPECT_NE(line.find(" saves 10 s"), std::string::npos) << line;
+  EXPECT_EQ(line.find("-10"), std::string::npos) << line;
+}
+
 TEST(Effects, WhatIsOffThoughItIsGivenIsObjectedTo) {
   const auto told = [](const char* height) {
     const SceneDescription scene =
@@ -524,15 +533,6 @@ TEST(Effects, AKineticCoefficientAboveTheStaticIsWarnedOf) {
   EXPECT_TRUE(warnings("{ law = \"hyperbolic\", static = 0.5, rate = 1 }").empty());
 }
 
-TEST(Effects, AMapOutsideTheRangeIsWarnedOf) {
-  const auto warnings_of = [](const std::string& maps) {
-    return scene_warnings(parse_scene(text, "scene.toml", "/nowhere",
-                                      {"response.frequency=[10, 14]", "response.maps=" + maps}));
-  };
-  EXPECT_TRUE(warnings_of("[10, 12, 14, \"peak\"]").empty());
-  const std::vector<std::string> warnings = warnings_of("[12, 15]");
-  ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_NE(warnings[0].find("15 Hz lies outside the range 10 to 14 Hz"), std::string::npos)
 TEST(Effects, HarmonicsBesideIntegrationInTimeAreWarnedOf) {
   const auto warnings = [](const Overrides& overrides) {
     return scene_warnings(parse_scene(text, "scene.toml", "/nowhere", overrides));
@@ -546,6 +546,15 @@ TEST(Effects, HarmonicsBesideIntegrationInTimeAreWarnedOf) {
   EXPECT_TRUE(warnings({"response.harmonics=5"}).empty());
 }
 
+TEST(Effects, AMapOutsideTheRangeIsWarnedOf) {
+  const auto warnings_of = [](const std::string& maps) {
+    return scene_warnings(parse_scene(text, "scene.toml", "/nowhere",
+                                      {"response.frequency=[10, 14]", "response.maps=" + maps}));
+  };
+  EXPECT_TRUE(warnings_of("[10, 12, 14, \"peak\"]").empty());
+  const std::vector<std::string> warnings = warnings_of("[12, 15]");
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("15 Hz lies outside the range 10 to 14 Hz"), std::string::npos)
       << warnings[0];
 }
 
