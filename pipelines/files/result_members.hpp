@@ -83,8 +83,8 @@ auto members(Is<CurveResult> auto& value) {
   return std::tie(name, load, curve, patch_shares, gap, integrated, richer);
 }
 auto members(Is<OptimumOfFactor> auto& value) {
-  auto& [parameter, factor, optimum, range, widened] = value;
-  return std::tie(parameter, factor, optimum, range, widened);
+  auto& [parameter, factor, optimum, range, widened, n_harmonics] = value;
+  return std::tie(parameter, factor, optimum, range, widened, n_harmonics);
 }
 auto members(Is<OptimumBracket> auto& value) {
   auto& [entries, left_out] = value;

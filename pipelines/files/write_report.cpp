@@ -195,6 +195,12 @@ std::string optimum_cells(const JsonEntry& peak, const JsonEntry& best) {
                      place_of(peak) == "range_end" ? " (end of the range)" : "");
 }
 
+/// That a bracket's entry is searched with fewer harmonics than the best value.
+std::string few_harmonics_text(const JsonEntry& entry) {
+  return entry.has("harmonics") ? fmt::format(" with {:g} harmonics", entry.number("harmonics"))
+                                : std::string();
+}
+
 /// Where the range of a bracket's entry is wider than that of the scene.
 std::string range_text(const JsonEntry& entry) {
   if (!entry.has("range_widened") || !entry.truth("range_widened")) return {};
@@ -239,8 +245,8 @@ std::string optimum_text(const JsonEntry& optimum) {
   text += optimum_cells(optimum, optimum);
   for (const JsonEntry& entry : optimum.list("bracket")) {
     const std::string objection = is_found(entry) ? "" : text_or_none(entry, "objection");
-    text += fmt::format("| {} × {:g}{}{} | ", entry.text("parameter"), entry.number("factor"),
-                        range_text(entry),
+    text += fmt::format("| {} × {:g}{}{}{} | ", entry.text("parameter"), entry.number("factor"),
+                        few_harmonics_text(entry), range_text(entry),
                         is_found(entry)     ? ""
                         : objection.empty() ? " (lowest, not found)"
                                             : fmt::format(" (lowest: {})", objection)) +

@@ -268,6 +268,7 @@ Json to_json(const OptimumSummary& summary) {
     row["factor"] = entry.factor;
     row["range"] = entry.range;
     row["range_widened"] = entry.widened;
+    if (entry.n_harmonics > 0) row["harmonics"] = entry.n_harmonics;
     bracket.push_back(std::move(row));
   }
   Json json = to_json(optimum, summary);

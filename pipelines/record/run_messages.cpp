@@ -230,6 +230,16 @@ std::string best_text(const solver::Optimum& optimum, const std::string& unit,
                      rounded(budget.dissipated_energy, best_energy_goal));
 }
 
+std::string few_harmonics_text(const OptimumBracket& bracket) {
+  if (bracket.entries.empty() || bracket.entries.front().n_harmonics == 0) return {};
+  const OptimumOfFactor& first = bracket.entries.front();
+  const bool has_own = first.factor == 1.0;
+  return fmt::format(
+      "how the best value moves is searched with {} harmonics: compare with {}, not with the best "
+      "value above",
+      first.n_harmonics, has_own ? first.parameter + " x 1" : "one another");
+}
+
 std::string bracket_text(const OptimumOfFactor& entry, const CurveBudget& budget) {
   const solver::Optimum& optimum = entry.optimum;
   if (!optimum.found) {

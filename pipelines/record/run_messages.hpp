@@ -45,6 +45,9 @@ namespace microslip::pipelines {
 [[nodiscard]] std::string best_text(const solver::Optimum& optimum, const std::string& unit,
                                     const CurveBudget& budget);
 
+/// Of a bracket that is searched with fewer harmonics than the best value; "": it is not.
+[[nodiscard]] std::string few_harmonics_text(const OptimumBracket& bracket);
+
 /// The best value with other contact data: to the digits that the errors of the best value as given
 /// allow.
 [[nodiscard]] std::string bracket_text(const OptimumOfFactor& entry, const CurveBudget& budget);

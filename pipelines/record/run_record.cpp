@@ -521,6 +521,7 @@ void RunRecord::keep_bracket(OptimumBracket bracket) {
   const std::lock_guard lock(mutex_);
   const OptimumSummary& as_given = *summary_.optimum;
   const CurveBudget budget{.rows = as_given.error_budget, .unknown = as_given.not_in_bar};
+  if (const std::string text = few_harmonics_text(bracket); !text.empty()) progress_.info(text);
   for (const OptimumOfFactor& entry : bracket.entries) {
     progress_.info(fmt::format("with {} x {:g}{}: {}", entry.parameter, entry.factor,
                                range_text(entry), bracket_text(entry, budget)));

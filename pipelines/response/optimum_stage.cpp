@@ -252,8 +252,12 @@ OptimumBracket OptimumSearch::bracket(int jobs) {
     }
     const solver::OptimumOptions options = options_for(factors);
     const bool widened = options.lower < options_.lower || options.upper > options_.upper;
-    bracket.entries.push_back(
-        {parameter, factor, std::move(*found[i]), {options.lower, options.upper}, widened});
+    bracket.entries.push_back({parameter,
+                               factor,
+                               std::move(*found[i]),
+                               {options.lower, options.upper},
+                               widened,
+                               factors.n_harmonics});
   }
   return bracket;
 }

@@ -55,6 +55,7 @@ struct OptimumOfFactor {
   solver::Optimum optimum;
   std::array<double, 2> range{};  ///< searched, in SI
   bool widened = false;           ///< beyond what the scene asks for
+  int n_harmonics = 0;            ///< it is searched with; 0: those of the best value as given
 };
 
 struct OptimumBracket {

@@ -54,7 +54,7 @@ void write_run(const std::filesystem::path& folder, Maps maps = Maps::none) {
   OptimumSummary& found = run.optimum.emplace();
   found.request.key = "preload";
   found.optimum = optimum;
-  found.bracket.entries = {{"contact_stiffness", 2.0, optimum, {100.0, 400.0}, false},
+  found.bracket.entries = {{"contact_stiffness", 2.0, optimum, {100.0, 400.0}, false, 3},
                            {"friction_coefficient", 0.5, optimum, {100.0, 800.0}, true}};
   found.bracket.left_out = {"friction_coefficient: friction is a law of the slip speed"};
   write_optimum_csv(folder, found.request, optimum);
@@ -105,7 +105,7 @@ TEST(WriteReport, ReportTellsPeaksFoldsAndOptimum) {
   EXPECT_NE(report.find("| friction_coefficient × 0.5 (searched wider: 100 … 800) |"),
             std::string::npos)
       << report;
-  EXPECT_NE(report.find("| contact_stiffness × 2 |"), std::string::npos) << report;
+  EXPECT_NE(report.find("| contact_stiffness × 2 with 3 harmonics |"), std::string::npos) << report;
   EXPECT_NE(report.find("](plots/curves.svg)"), std::string::npos) << report;
 }
 

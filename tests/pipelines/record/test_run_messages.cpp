@@ -28,5 +28,18 @@ TEST(RunMessages, ManyFoldsAreToldWithARemedy) {
   EXPECT_NE(text.find("response.method"), std::string::npos) << text;
 }
 
+TEST(RunMessages, ABracketOfFewHarmonicsSaysSo) {
+  OptimumBracket bracket;
+  bracket.entries.resize(2);
+  EXPECT_EQ(few_harmonics_text(bracket), "");
+  for (OptimumOfFactor& entry : bracket.entries) entry.n_harmonics = 3;
+  bracket.entries.front().parameter = "friction_coefficient";
+  const std::string text = few_harmonics_text(bracket);
+  EXPECT_NE(text.find("with 3 harmonics"), std::string::npos) << text;
+  EXPECT_NE(text.find("compare with friction_coefficient x 1,"), std::string::npos) << text;
+  bracket.entries.front().factor = 0.5;  // friction is not varied
+  EXPECT_NE(few_harmonics_text(bracket).find("with one another"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace microslip::pipelines::test_run_messages

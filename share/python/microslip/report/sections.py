@@ -195,6 +195,7 @@ def bracket_row(entry: Mapping[str, Any], best: Mapping[str, Any], unit: str) ->
     """A best value in the digits of the one with the data as given."""
     bar = best.get("bar") or {}
     label = "as given" if entry is best else f"{entry['parameter'].replace('_', ' ')} × {plain(entry['factor'])}"
+    label += f" with {entry['harmonics']} harmonics" if entry is not best and entry.get("harmonics") else ""
     wider = entry.get("range") if entry.get("range_widened") else None
     label += f" (searched wider: {number(wider[0])} … {number(wider[1])})" if wider else ""
     objection = entry.get("objection") or "not found"
@@ -213,6 +214,9 @@ def bracket(best: Mapping[str, Any], unit: str) -> str:
         return left_out
     value = "preload [N]" if best["parameter"] == "preload" else f"{escape(best['parameter'])} (SI)"
     rows = [bracket_row(entry, best, unit) for entry in (best, *entries)]
+    if any(entry.get("harmonics") for entry in entries):
+        left_out += ("<p class=note>Rows with few harmonics tell how the best value moves: compare them with one another, "
+                     "not with the row as given.</p>")
     return table(["contact data", f"best {value}", f"peak [{unit}]", "at [Hz]"], rows, (1, 2, 3)) + left_out
 
 
