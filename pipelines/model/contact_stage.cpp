@@ -155,7 +155,8 @@ void warn_of_the_plane(const mesh::SurfacePlane& plane, const ContactDescription
 }
 
 void warn_of_the_fit(const contact::Patch& patch, const mesh::Mesh& mesh,
-                     const ContactDescription& contact, std::vector<std::string>& warnings) {
+                     const ContactDescription& contact, Eigen::Index n_modes,
+                     std::vector<std::string>& warnings) {
   const auto plane = mesh::fit_plane(mesh.nodes(), mesh.surface(contact.surface));
   if (patch.cells.normals.rows() == 0) {
     warn_of_the_plane(plane, contact, warnings);
@@ -169,10 +170,12 @@ void warn_of_the_fit(const contact::Patch& patch, const mesh::Mesh& mesh,
   if (patch.fit_error.size() > 0 && patch.fit_error.maxCoeff() > 0.05) {
     Eigen::Index mode = 0;
     const double worst = patch.fit_error.maxCoeff(&mode);
+    const bool is_static = mode >= n_modes;
     warnings.push_back(fmt::format(
-        "fit-poor: the fitted field of mode {} errs by {:.1f} % on the patch (degree {}); "
+        "fit-poor: the fitted field of {} {} errs by {:.1f} % on the patch (degree {}); "
         "contact.fit = \"none\" interpolates instead",
-        mode + 1, 100.0 * worst, patch.fit_degree));
+        is_static ? "static shape" : "mode", is_static ? mode + 1 - n_modes : mode + 1,
+        100.0 * worst, patch.fit_degree));
   }
 }
 
@@ -215,7 +218,8 @@ ReducedModel reduce_to_contact(const mesh::Mesh& mesh, const SceneDescription& s
     model.patches.push_back(patch_of(mesh, contact, scene.settings.patches[i],
                                      contact_points(scene.settings, i), basis,
                                      residuals.empty() ? nullptr : &residuals[i]));
-    warn_of_the_fit(model.patches.back(), mesh, contact, warnings);
+    warn_of_the_fit(model.patches.back(), mesh, contact,
+                    model.frequency.size() - model.n_attachment, warnings);
     if (!scene.areas) model.patches.back() = at_middle_point(std::move(model.patches.back()));
   }
   return model;

@@ -171,11 +171,19 @@ bool is_short(const mesh::Mesh& mesh, const SceneDescription& scene) {
   return memory.needed_mb() <= memory.available.megabytes;
 }
 
+/// Whether the modes are of the scene that is meant.
+bool tells_modes(const mesh::Mesh& mesh, const SceneDescription& scene, std::ostream& out) {
+  if (!may_be_in_other_units(scene, mesh)) return true;
+  out << "modes: not solved for here: what is asked below of material, size or stiffness comes "
+         "first\n";
+  return false;
+}
+
 /// Of a file, kept by an earlier run, or quickly solved for; empty: known to `run` alone.
 std::optional<StructureModes> modes_to_ask(const mesh::Mesh& mesh, const SceneDescription& scene,
                                            std::ostream& out) {
   if (given_modes(scene) != nullptr) return solve_structure(mesh, scene);
-  if (!scene.response) return std::nullopt;
+  if (!scene.response || !tells_modes(mesh, scene, out)) return std::nullopt;
   if (auto kept = kept_structure(mesh, scene)) return kept;
   if (!is_short(mesh, scene)) return std::nullopt;
   out << "modes: solved for, as that takes seconds\n";
@@ -279,8 +287,16 @@ const char* left_to_run(bool modes_are_known) {
              ? "asked by `run` alone, which knows the curves: how large the amplitude is\n"
              : "asked by `run`, which knows the modes and the curves: whether modes lie in the "
                "frequency range, whether the face slides along r, how large the amplitude is; the "
-               "first two by `check` as well once `modes` or a run has kept the modes, which take "
-               "too long to be solved for here\n";
+               "first two by `check` as well once the modes are quickly solved for, or kept by "
+               "`modes` or a run\n";
+}
+
+std::string verdict(const SceneDescription& scene, std::size_t n_warnings) {
+  if (!scene.response)
+    return "the scene is complete for `mesh` and `modes`; `run` needs a [response]";
+  if (n_warnings == 0) return "the scene is complete and consistent";
+  return fmt::format("the scene is complete; {} above",
+                     mesh::counted(n_warnings, "warning", "warnings"));
 }
 
 }  // namespace
@@ -315,9 +331,7 @@ CheckResult check_study(const SceneDescription& scene, const std::filesystem::pa
   if (scene.response && !std::holds_alternative<ModalModel>(scene.model)) {
     out << left_to_run(modes_are_known);
   }
-  out << (scene.response
-              ? "the scene is complete and consistent\n"
-              : "the scene is complete for `mesh` and `modes`; `run` needs a [response]\n");
+  out << verdict(scene, result.warnings.size()) << '\n';
   return result;
 }
 

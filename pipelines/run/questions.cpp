@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -17,6 +18,7 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
+#include "fem/bending_error.hpp"
 #include "mesh/surface.hpp"
 #include "pipelines/description/curve_request.hpp"
 #include "pipelines/description/element_count.hpp"
@@ -32,6 +34,8 @@ namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 constexpr double percent = 100.0;
+constexpr double least_contact_stiffness = 1e6;     // [N/m³]: softer than any joint
+constexpr double largest_contact_stiffness = 1e16;  // a layer of 20 micrometres of steel
 constexpr double to_degrees = 180.0 / std::numbers::pi;
 
 /// What is known at a stage; nullptr: later.
@@ -60,6 +64,7 @@ struct Question {
   const char* usual;  ///< examples, "": none
   const char* remedy;
   Findings (*measure)(const Facts&);
+  bool is_of_units = false;  ///< what was most likely written in another unit: modes say nothing
 };
 
 bool is_meshed(const SceneDescription& scene) {
@@ -120,6 +125,26 @@ Findings friction_coefficient(const Facts& facts) {
   findings.push_back(
       {listed ? key : "contact.friction_coefficient", largest->friction_coefficient});
   return findings;
+}
+
+/// Of contacts that have a number; 0 keeps the load constant, or rubs without sticking.
+template <std::optional<double> ContactDescription::*stiffness>
+Findings contact_stiffness(const Facts& facts, const char* key) {
+  Findings findings;
+  for (const ContactDescription& contact : facts.scene.contacts) {
+    const std::optional<double>& given = contact.*stiffness;
+    if (given.value_or(0.0) == 0.0) continue;
+    findings.push_back({fmt::format("{}.{}", contact.key, key), *given});
+  }
+  return findings;
+}
+
+Findings normal_stiffness(const Facts& facts) {
+  return contact_stiffness<&ContactDescription::normal_stiffness>(facts, "normal_stiffness");
+}
+Findings tangential_stiffness(const Facts& facts) {
+  return contact_stiffness<&ContactDescription::tangential_stiffness>(facts,
+                                                                      "tangential_stiffness");
 }
 
 /// The largest of given ratios. α and β make some ratios large by nature: of them the smallest.
@@ -240,6 +265,16 @@ Findings locking(const Facts& facts) {
   return {};
 }
 
+/// Modes and matrices that are given come from elements of another code.
+Findings stiff_in_bending(const Facts& facts) {
+  const auto* file = std::get_if<MeshFileModel>(&facts.scene.model);
+  if (file != nullptr && (file->modes || file->matrices)) return {};
+  if (facts.mesh->elements().empty()) return {};
+  const mesh::ElementType type = facts.mesh->elements().front().type;
+  return {{"model.file", percent * fem::bending_error(*facts.mesh),
+           fmt::format("too high, by {} elements of this size", name(type))}};
+}
+
 Findings pressure(const Facts& facts) {
   Findings findings;
   for (std::size_t i = 0; i < facts.scene.contacts.size(); ++i) {
@@ -248,6 +283,42 @@ Findings pressure(const Facts& facts) {
           {"response.preload", preload.pressure,
            fmt::format("on \"{}\" under {}", facts.scene.contacts[i].surface, preload.text)});
     }
+  }
+  return findings;
+}
+
+/// Of places from the centroid of a face along p and r [m].
+Eigen::AlignedBox2d box_of(const mesh::Mesh& mesh, const ContactDescription& contact) {
+  const mesh::Surface& surface = mesh.surface(contact.surface);
+  const Eigen::MatrixX3d nodes = mesh.nodes()(surface.nodes, Eigen::all);
+  const auto [p, r] = in_plane(nodes, mesh::fit_plane(mesh.nodes(), surface).centroid,
+                               contact_frame(mesh, contact));
+  return {Eigen::Vector2d(p.minCoeff(), r.minCoeff()), Eigen::Vector2d(p.maxCoeff(), r.maxCoeff())};
+}
+
+double reach(const Eigen::AlignedBox2d& box) {
+  return box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
+}
+
+std::string extents(const Eigen::AlignedBox2d& box) {
+  return fmt::format("p {:.4g} to {:.4g}, r {:.4g} to {:.4g} m", box.min().x(), box.max().x(),
+                     box.min().y(), box.max().y());
+}
+
+/// How far tables over a face reach.
+Findings reach_of_tables(const Facts& facts) {
+  Findings findings;
+  for (const ContactDescription& contact : facts.scene.contacts) {
+    const auto look_at = [&](const Field& field, const char* key) {
+      if (!field.table_box) return;
+      const Eigen::AlignedBox2d face = box_of(*facts.mesh, contact);
+      findings.push_back({fmt::format("{}.{}", contact.key, key),
+                          reach(*field.table_box) / reach(face),
+                          fmt::format("as far as the face (table {}; face {})",
+                                      extents(*field.table_box), extents(face))});
+    };
+    look_at(contact.friction, "friction_coefficient");
+    if (contact.preload_field) look_at(*contact.preload_field, "preload_field");
   }
   return findings;
 }
@@ -341,6 +412,17 @@ Findings range_above_modes(const Facts& facts) {
            fmt::format("of the last natural frequency, {:.6g} Hz", last)}};
 }
 
+/// Frequencies of another code may be angular ones. "": that would not explain a range without any.
+std::string angular_hint(const SceneDescription& scene, const Eigen::VectorXd& frequencies,
+                         std::pair<double, double> range) {
+  if (given_modes(scene) == nullptr) return {};
+  const Eigen::ArrayXd divided = frequencies.array() / (2.0 * std::numbers::pi);
+  const auto n = (divided >= range.first && divided <= range.second).count();
+  return n == 0
+             ? std::string()
+             : fmt::format("; divided by 2 pi, {} of them would be: does the file have rad/s?", n);
+}
+
 /// Modes that have the range, or a part of it, between their free and their stuck frequency.
 Findings modes_in_range(const Facts& facts) {
   if (!facts.scene.response) return {};
@@ -359,9 +441,43 @@ Findings modes_in_range(const Facts& facts) {
     if (away < distance) nearest = i;
     distance = std::min(distance, away);
   }
-  return {{"response.frequency", static_cast<double>(n),
-           fmt::format("between {:g} and {:g} Hz; the nearest has {:.6g} Hz free, {:.6g} Hz stuck",
-                       low, high, limits.free[nearest], limits.stuck[nearest])}};
+  const std::string hint = n > 0 ? "" : angular_hint(facts.scene, limits.free, {low, high});
+  return {
+      {"response.frequency", static_cast<double>(n),
+       fmt::format("between {:g} and {:g} Hz; the nearest has {:.6g} Hz free, {:.6g} Hz stuck{}",
+                   low, high, limits.free[nearest], limits.stuck[nearest], hint)}};
+}
+
+std::string stiffness_text(const std::optional<double>& stiffness) {
+  return stiffness ? fmt::format("{:g} N/m^3", *stiffness) : "rigid";
+}
+
+/// Of the modes that have the range, or a part of it, between their limits; of all where none has.
+double largest_shift(const LimitFrequencies& limits, std::pair<double, double> range) {
+  double inside = -1.0;
+  double anywhere = 0.0;
+  for (Eigen::Index i = 0; i < limits.free.size() && limits.free[i] <= limits.last; ++i) {
+    const double shift = (limits.stuck[i] - limits.free[i]) / limits.free[i];
+    anywhere = std::max(anywhere, shift);
+    const bool meets = limits.free[i] <= range.second && limits.stuck[i] >= range.first;
+    if (meets) inside = std::max(inside, shift);
+  }
+  return inside < 0.0 ? anywhere : inside;
+}
+
+/// A contact that sticks moves the natural frequencies, or it does nothing. Asked before where a
+/// stiffness is not usual by itself.
+Findings shift_by_sticking(const Facts& facts) {
+  if (facts.scene.contacts.empty() || !facts.scene.response) return {};
+  const ContactDescription& contact = facts.scene.contacts.front();
+  for (const auto* stiffness : {&contact.normal_stiffness, &contact.tangential_stiffness}) {
+    if (*stiffness && **stiffness<least_contact_stiffness&&* * stiffness> 0.0) return {};
+  }
+  return {{contact.key + ".normal_stiffness",
+           percent * largest_shift(limit_frequencies(*facts.model), range_of(facts.scene)),
+           fmt::format("by a contact that sticks (normal_stiffness {}, tangential_stiffness {})",
+                       stiffness_text(contact.normal_stiffness),
+                       stiffness_text(contact.tangential_stiffness))}};
 }
 
 /// Given modes move as they move; the axes of a face are chosen in the scene.
@@ -396,12 +512,20 @@ Findings amplitude(const Facts& facts) {
 constexpr std::array table{
     Question{Stage::scene, "Young's modulus", "Pa", 1e9, 1.3e12,
              "plastics 3e9, titanium 1.1e11, steel 2.1e11", "is it in MPa or GPa? give the unit",
-             youngs_modulus},
+             youngs_modulus, true},
     Question{Stage::scene, "Poisson's ratio", "", 0.0, 0.495, "metals 0.3",
              "is it another property?", poissons_ratio},
     Question{Stage::scene, "the density", "kg/m^3", 300.0, 25000.0,
              "composites 1600, titanium 4400, steel 7800",
-             "is it in g/cm^3 or t/mm^3? give the unit", density},
+             "is it in g/cm^3 or t/mm^3? give the unit", density, true},
+    Question{Stage::scene, "the normal stiffness per area", "N/m^3", least_contact_stiffness,
+             largest_contact_stiffness, "metal faces 1e11 to 1e15",
+             "is it in N/mm^3 (1 N/mm^3 = 1e9 N/m^3)? give the unit; or \"rigid\"",
+             normal_stiffness, true},
+    Question{Stage::scene, "the tangential stiffness per area", "N/m^3", least_contact_stiffness,
+             largest_contact_stiffness, "metal faces 1e11 to 1e15",
+             "is it in N/mm^3 (1 N/mm^3 = 1e9 N/m^3)? give the unit; or \"rigid\"",
+             tangential_stiffness, true},
     Question{Stage::scene, "the element size", "% of the blade's height",
              percent* smallest_usual_element, percent* largest_usual_element, "",
              "is it in millimetres? give the unit", element_size},
@@ -419,7 +543,7 @@ constexpr std::array table{
              percent* smallest_usual_element, percent* largest_usual_element, "",
              "is it in millimetres? give the unit", element_size_of_step},
     Question{Stage::mesh, "the longest side of the mesh", "m", 2e-3, 3.0, "blades 0.02 to 3",
-             "is the file in another unit than length_unit says?", size},
+             "is the file in another unit than length_unit says?", size, true},
     Question{Stage::mesh, "the speed of the outermost point", "m/s", 0.0, 900.0,
              "blades 200 to 600",
              "is it in rpm? give the unit; does the axis stand where it should, in metres?",
@@ -438,8 +562,16 @@ constexpr std::array table{
         "linear elements of a material that keeps its volume lock, frequencies come out too high; "
         "use quadratic ones",
         locking},
+    Question{Stage::mesh, "in bending, frequencies may be", "%", 0.0, 2.0, "",
+             "linear elements are too stiff there; use quadratic ones (gmsh -order 2) or more over "
+             "the thickness",
+             stiff_in_bending},
     Question{Stage::mesh, "the mean pressure", "Pa", 0.0, 3e9, "yield of steels 3e8 to 2e9",
              "is the preload in newtons, the mesh in its unit?", pressure},
+    Question{Stage::mesh, "the table reaches", "times", 0.0, 3.0, "",
+             "p and r are in metres from the centroid of the face; are they in millimetres? divide "
+             "them by 1000",
+             reach_of_tables},
     Question{Stage::mesh, "the nearest node is", "% of an element", 0.0, 100.0, "",
              "is the point on the body, and in the axes of the mesh?", distance_of_points},
     Question{Stage::mesh, "the number of nodes that are not in both", "", 0.0, 0.0, "",
@@ -453,6 +585,10 @@ constexpr std::array table{
              "the modes in and above it are left out; raise modes.count", range_above_modes},
     Question{Stage::modes, "the number of modes", "", 1.0, unlimited, "",
              "the curve has no peak of theirs; is the range the right one?", modes_in_range},
+    Question{Stage::modes, "the largest shift of a natural frequency", "%", 0.01, unlimited, "",
+             "stuck is the same as free: is the stiffness in N/mm^3? give the unit; does the face "
+             "move in these modes?",
+             shift_by_sticking},
     Question{Stage::modes, "motion along r is", "%", 0.0, 200.0, "",
              "does the face slide along r rather? turn the slip direction", motion_along_r},
     Question{Stage::response, "the largest amplitude is", "%", 0.0, 2.0, "",
@@ -473,9 +609,9 @@ std::string usual_text(const Question& question) {
 /// "is" stands between a quantity and its value unless the quantity brings its verb.
 std::string sentence(const Question& question, const Finding& finding) {
   const std::string_view quantity = question.quantity;
-  const bool has_verb = quantity.ends_with("is") || quantity.ends_with("given") ||
-                        quantity.ends_with("rises") || quantity.ends_with("reaches") ||
-                        quantity.ends_with("from");
+  const bool has_verb = quantity.ends_with("is") || quantity.ends_with("be") ||
+                        quantity.ends_with("given") || quantity.ends_with("rises") ||
+                        quantity.ends_with("reaches") || quantity.ends_with("from");
   std::string text =
       fmt::format("{}: {} {}{:.4g}", finding.key, quantity, has_verb ? "" : "is ", finding.value);
   if (*question.unit != 0) text += fmt::format(" {}", question.unit);
@@ -483,13 +619,16 @@ std::string sentence(const Question& question, const Finding& finding) {
   return text + fmt::format("; usual is {}: {}", usual_text(question), question.remedy);
 }
 
+bool is_usual(const Question& question, const Finding& finding) {
+  return finding.value >= question.low && finding.value <= question.high;
+}
+
 std::vector<std::string> asked(Stage stage, const Facts& facts) {
   std::vector<std::string> sentences;
   for (const Question& question : table) {
     if (question.stage != stage) continue;
     for (const Finding& finding : question.measure(facts)) {
-      const bool usual = finding.value >= question.low && finding.value <= question.high;
-      if (!usual) sentences.push_back(sentence(question, finding));
+      if (!is_usual(question, finding)) sentences.push_back(sentence(question, finding));
     }
   }
   return sentences;
@@ -532,6 +671,15 @@ std::vector<std::string> questions(const SceneDescription& scene, const mesh::Me
     sentences.push_back(std::move(sentence));
   }
   return sentences;
+}
+
+bool may_be_in_other_units(const SceneDescription& scene, const mesh::Mesh& mesh) {
+  const Facts facts{.scene = scene, .mesh = &mesh};
+  return std::ranges::any_of(table, [&](const Question& question) {
+    return question.is_of_units && std::ranges::any_of(question.measure(facts), [&](const auto& f) {
+             return !is_usual(question, f);
+           });
+  });
 }
 
 std::vector<std::string> questions(const SceneDescription& scene, const ReducedModel& model) {

@@ -26,6 +26,10 @@ namespace microslip::pipelines {
 [[nodiscard]] std::vector<std::string> questions(const SceneDescription& scene,
                                                  const mesh::Mesh& mesh);
 
+/// Whether material, size or contact stiffness are what no blade has, most likely for a unit that
+/// is not the one written: modes of such a scene tell nothing.   @param mesh  as above.
+[[nodiscard]] bool may_be_in_other_units(const SceneDescription& scene, const mesh::Mesh& mesh);
+
 /// What the modes say of the frequency range and of the contact. @param model  with its effects.
 [[nodiscard]] std::vector<std::string> questions(const SceneDescription& scene,
                                                  const ReducedModel& model);

@@ -122,13 +122,13 @@ class Formats(unittest.TestCase):
         finished = subprocess.run([PROGRAM, "surfaces", self.path(file), "--json"], capture_output=True, text=True, check=True)
         return json.loads(finished.stdout.splitlines()[-1])
 
-    def scene_of(self, file, held=True):
+    def scene_of(self, file, held=True, told="complete and consistent"):
         """What init makes of it, after check found it complete, or that nothing is held yet."""
         scene = self.path(file + ".toml")
         subprocess.run([PROGRAM, "init", "mesh", self.path(file), "-o", scene], check=True)
         checked = subprocess.run([PROGRAM, "check", scene], capture_output=True, text=True)
         if held:
-            self.assertIn("complete and consistent", checked.stdout, checked.stderr)
+            self.assertIn(told, checked.stdout, checked.stderr)
         else:
             self.assertIn("name the clamped surfaces in [supports] clamped", checked.stderr)
         with open(scene, encoding="utf-8") as stream:
@@ -186,7 +186,7 @@ class Formats(unittest.TestCase):
         surfaces = {name: number[np.array(self.mesh.surfaces[name])] for name in ("root", "contact")}
         mesh_files.write_inp(mesh_files.Mesh(self.mesh.nodes[used], {"tetra": number[corners["tetra"]]}, surfaces, {}),
                              self.path("straight.inp"))
-        self.assertIn("\norder = 1", self.scene_of("straight.inp"))
+        self.assertIn("\norder = 1", self.scene_of("straight.inp", told="too high, by tet4 elements of this size"))
         told = subprocess.run([PROGRAM, "check", self.path("straight.inp.toml"), "--set", "model.order=2"],
                               capture_output=True, text=True).stdout
         self.assertIn("model.order: 2 is written, the elements of straight.inp are of order 1 (tet4)", told)

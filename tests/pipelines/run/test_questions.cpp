@@ -3,18 +3,26 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "fem/bending_error.hpp"
 #include "pipelines/effects/contact_effects.hpp"
 #include "pipelines/effects/model_family.hpp"
 #include "pipelines/import/named_points.hpp"
 #include "pipelines/model/contact_stage.hpp"
+#include "pipelines/run/check_study.hpp"
 #include "pipelines/scene/scene_file.hpp"
+#include "pipelines/structure/structure_stage.hpp"
+#include "pipelines/system/scene_error.hpp"
 #include "pipelines/system/temporary_folder.hpp"
 #include "tests/support/box_mesh.hpp"
 
@@ -120,6 +128,18 @@ TEST(Questions, AskForSizeFrictionDampingAndLoads) {
   expect_question(of_chain("modes.damping_ratio=200 %"), "modes.damping_ratio:", {"200 %"});
 }
 
+TEST(Questions, AskForTheStiffnessOfTheContact) {
+  expect_question(of_blade("contact.normal_stiffness=20"),
+                  "contact.normal_stiffness:", {"20 N/m^3", "N/mm^3"});
+  expect_question(of_blade("contact.tangential_stiffness=20"),
+                  "contact.tangential_stiffness:", {"20 N/m^3", "N/mm^3"});
+  expect_question(of_blade("contact.normal_stiffness=2e16"),
+                  "contact.normal_stiffness:", {"2e+16 N/m^3"});
+  for (const char* usual : {"0", "1e15", "\"20 N/mm^3\""}) {
+    expect_none(of_blade(fmt::format("contact.normal_stiffness={}", usual)));
+  }
+}
+
 TEST(Questions, KeepDimensionlessScenesOutOfUnits) {
   const std::string text = R"(
 [model]
@@ -194,6 +214,26 @@ Lines of_box(const Lines& overrides, double scale = 1.0) {
   return questions(scene, box(scene, scale));
 }
 
+TEST(MeshNames, ASimilarOneIsToldWhateverItsCapitals) {
+  const SceneDescription scene = box_scene({R"(contact.surface="X1")"});
+  try {
+    check_names(box(scene), scene);
+    FAIL() << "there is no X1";
+  } catch (const SceneError& error) {
+    const std::string said = error.what();
+    EXPECT_NE(said.find("contact.surface: no surface is named \"X1\""), std::string::npos) << said;
+    EXPECT_NE(said.find("did you mean \"x1\"?"), std::string::npos) << said;
+  }
+}
+
+TEST(MeshNames, AMeshWithoutAnySaysHowToGiveThem) {
+  const mesh::Mesh named = box(box_scene({}));
+  const mesh::Mesh bare(named.nodes(), named.elements(), {}, {});
+  const std::string told = describe_mesh(bare, 7800.0);
+  EXPECT_NE(told.find("surfaces: none: "), std::string::npos) << told;
+  EXPECT_NE(told.find("Physical Surface(\"root\")"), std::string::npos) << told;
+}
+
 TEST(Questions, TakeASmallCouponAsItIs) { expect_none(of_box({})); }
 
 TEST(Questions, AskForLinearElementsThatLock) {  // hard case 29
@@ -203,11 +243,61 @@ TEST(Questions, AskForLinearElementsThatLock) {  // hard case 29
     name_points(mesh, scene);
     return questions(scene, mesh);
   };
-  expect_question(of(mesh::ElementType::hex8, "0.4999"),
+  const auto about_ratio = [](const Lines& asked) {
+    Lines found;
+    for (const std::string& line : asked) {
+      if (line.starts_with("material.")) found.push_back(line);
+    }
+    return found;
+  };
+  expect_question(about_ratio(of(mesh::ElementType::hex8, "0.4999")),
                   "material.poissons_ratio:", {"0.4999 in hex8", "quadratic"});
-  expect_question(of(mesh::ElementType::tet4, "0.46"), "material.poissons_ratio:", {"tet4"});
-  expect_none(of(mesh::ElementType::hex8, "0.45"));
+  expect_question(about_ratio(of(mesh::ElementType::tet4, "0.46")),
+                  "material.poissons_ratio:", {"tet4"});
+  expect_none(about_ratio(of(mesh::ElementType::hex8, "0.45")));
   expect_none(of(mesh::ElementType::hex20, "0.4999"));
+}
+
+/// A plate that bends, in elements of a type.
+mesh::Mesh plate(mesh::ElementType type, std::array<int, 3> cells) {
+  return test::box_mesh(type, {{0.005, 0.05, 0.05}, cells, {}});
+}
+
+TEST(Questions, AskForLinearElementsThatBend) {
+  const SceneDescription scene = box_scene({"points.P=[0.005, 0.05, 0.05]"});
+  const auto of = [&](mesh::ElementType type, std::array<int, 3> cells) {
+    mesh::Mesh mesh = plate(type, cells);
+    name_points(mesh, scene);
+    return questions(scene, mesh);
+  };
+  expect_question(of(mesh::ElementType::tet4, {1, 8, 8}), "model.file: in bending,",
+                  {"too high, by tet4", "gmsh -order 2"});
+  expect_question(of(mesh::ElementType::hex8, {1, 8, 8}), "model.file: in bending,", {"by hex8"});
+  expect_none(of(mesh::ElementType::hex8, {6, 60, 60}));
+  expect_none(of(mesh::ElementType::tet10, {1, 8, 8}));
+}
+
+/// First natural frequency of the plate, held at one side.
+double first_frequency(const mesh::Mesh& mesh) {
+  SceneDescription scene = box_scene({"modes.count=1", "modes.residual=none"});
+  scene.contacts.clear();
+  return solve_structure(mesh, scene).basis.frequency[0];
+}
+
+/// Against the same plate in quadratic elements: what is told is half to twice of what is wrong.
+TEST(Questions, TellHowStiffLinearElementsAre) {
+  const double exact = first_frequency(plate(mesh::ElementType::hex20, {1, 10, 10}));
+  for (const auto type : {mesh::ElementType::tet4, mesh::ElementType::hex8}) {
+    for (const std::array<int, 3> cells : {std::array{1, 5, 5}, {1, 10, 10}, {2, 20, 20}}) {
+      const mesh::Mesh mesh = plate(type, cells);
+      const double error = first_frequency(mesh) / exact - 1.0;
+      const double told = fem::bending_error(mesh);
+      std::printf("%s %d x %d x %d: %.3f too high, told %.3f\n", name(type), cells[0], cells[1],
+                  cells[2], error, told);
+      EXPECT_GT(told, 0.5 * error);
+      EXPECT_LT(told, 2.0 * error);
+    }
+  }
 }
 
 TEST(Questions, AskForAMeshInAnotherUnit) {
@@ -233,6 +323,20 @@ TEST(Questions, AskForSlipAlongTheNormalPressureAndPoints) {
   expect_question(of_box({"response.preload=[1e8]"}), "response.preload:", {"5e+10 Pa", "1e+08 N"});
   expect_question(of_box({"points.P=[0.01, 0.02, 0.15]"}),
                   "--set points.P=[0.01, 0.02, 0.15]: points.P:", {"0.05 m", "\"P\""});
+}
+
+TEST(Questions, AskForATableInMillimetres) {
+  const TemporaryFolder folder;
+  const auto of_table = [&](double scale) {
+    const std::filesystem::path file = folder.path() / "mu.csv";
+    std::ofstream(file) << fmt::format("p,r,value\n{0},{1},0.2\n-{0},{1},0.2\n{0},-{1},0.3\n",
+                                       0.01 * scale, 0.05 * scale);
+    return of_box({fmt::format("contact.friction_coefficient={{ file = \"{}\" }}", file.string())});
+  };
+  expect_none(of_table(1.0));
+  expect_question(of_table(1000.0), "contact.friction_coefficient: the table reaches",
+                  {"1000 times as far as the face", "p -10 to 10, r -50 to 50 m",
+                   "p -0.01 to 0.01, r -0.05 to 0.05 m", "millimetres"});
 }
 
 TEST(Questions, AskWhetherASurfaceOrASetOfItsNameIsMeant) {
@@ -289,6 +393,18 @@ TEST_F(OfModes, AskForARangeWithoutAMode) {
   expect_none(asked({range(0.5 * frequency(0), 0.5 * frequency(0))}));
 }
 
+TEST_F(OfModes, AskWhetherGivenFrequenciesAreAngularOnes) {
+  const std::string divided = range(0.9 * frequency(0) / 6.2832, 1.1 * frequency(0) / 6.2832);
+  SceneDescription scene = box_scene({divided});
+  Lines warnings;
+  const ReducedModel model = model_of(scene, solved, warnings);
+  expect_question(questions(scene, model), "response.frequency: the number of modes is 0", {});
+  EXPECT_EQ(questions(scene, model).front().find("rad/s"), std::string::npos) << "solved for here";
+  std::get<MeshFileModel>(scene.model).modes = ModesFile{};
+  expect_question(questions(scene, model), "response.frequency: the number of modes is 0",
+                  {"divided by 2 pi, 1 of them would be", "rad/s"});
+}
+
 TEST_F(OfModes, AskForARangeBeyondTheLastMode) {
   expect_question(asked({range(0.9 * frequency(0), 3.0 * frequency(2))}),
                   "response.frequency:", {"300 %", "last natural frequency", "modes.count"});
@@ -299,6 +415,17 @@ TEST_F(OfModes, AskForARangeAboveTheLastMode) {
   expect_question(asked({range(1.2 * last, 1.45 * last)}), "response.frequency:",
                   {"range rises from 120 %", "last natural frequency", "modes.count"});
   expect_none(asked({range(0.9 * last, 1.45 * last)}));
+}
+
+TEST_F(OfModes, AskForAContactThatMovesNoFrequency) {
+  const std::string here = range(0.9 * frequency(0), 1.1 * frequency(0));
+  expect_none(asked({here}));
+  // Usual by themselves, and felt by nothing.
+  expect_question(asked({here, "contact.normal_stiffness=2e6", "contact.tangential_stiffness=2e6"}),
+                  "contact.normal_stiffness: the largest shift",
+                  {"normal_stiffness 2e+06 N/m^3, tangential_stiffness 2e+06 N/m^3"});
+  // Asked already, by the scene alone.
+  expect_none(asked({here, "contact.normal_stiffness=20", "contact.tangential_stiffness=20"}));
 }
 
 TEST_F(OfModes, AskForMotionAlongR) {  // the first mode bends along x, where the face approaches;
@@ -326,6 +453,32 @@ TEST_F(OfModes, AskForLargeAmplitudes) {
   expect_none(questions(scene, solved->mesh, std::vector{limit, result}));
   expect_question(questions(scene, solved->mesh, std::vector{limit}),
                   "excitation.forces:", {"5 %", "0.005 m", "free"});
+}
+
+// In other units, no modes
+// --------------------------------------------------------------------------
+
+std::string checked(const Lines& more) {
+  Lines overrides{"model.element_size=10 mm"};
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  std::ostringstream out;
+  static_cast<void>(check_study(read_scene(blade, overrides), {}, out));
+  return out.str();
+}
+
+TEST(Questions, ComeBeforeModesWhereUnitsAreWrong) {
+  const auto has = [](const std::string& text, const char* part) {
+    return text.find(part) != std::string::npos;
+  };
+  const std::string right = checked({});
+  EXPECT_TRUE(has(right, "natural frequencies")) << right;
+  EXPECT_TRUE(has(right, "the scene is complete and consistent")) << right;
+  for (const char* wrong : {"material.youngs_modulus=205", "contact.normal_stiffness=2e16"}) {
+    const std::string text = checked({wrong});
+    EXPECT_FALSE(has(text, "natural frequencies")) << text;
+    EXPECT_TRUE(has(text, "modes: not solved for here")) << text;
+    EXPECT_TRUE(has(text, "the scene is complete; 1 warning above")) << text;
+  }
 }
 
 }  // namespace
