@@ -216,11 +216,11 @@ int run_scene(Arguments& arguments, const Study& study) {
   if (arguments.resume) {
     if (const auto code = ended_run(arguments.output, scene.complete_toml)) {
       const bool had_no_time = *code == static_cast<int>(ExitCode::exhausted);
-      std::cerr << fmt::format("{}: the run has come to its end: nothing to resume{}\n",
-                               arguments.output,
-                               had_no_time ? "; with a longer --budget, and without --resume, it "
-                                             "takes what was finished from the cache"
-                                           : "");
+      std::cerr << fmt::format(
+          "{}: the run has come to its end: nothing to resume{}\n", arguments.output,
+          had_no_time ? "; where its budget has ended it, the same with a longer "
+                        "one and without --resume goes on from the cache"
+                      : "");
       return *code;
     }
   }

@@ -241,8 +241,9 @@ void tell_along(const std::vector<ErrorRow>& rows, double tolerance, EffectRecor
   const ErrorRow* there = largest_row(rows, effect.name, amplitude_there_goal);
   if (there == nullptr) return;
   const std::string text = fmt::format(
-      "the amplitude of {} at {:.4g} Hz, of {} solution points of a curve the one that changes "
-      "most, changes by {} of the highest peak beyond what the change of the peak makes there",
+      "the amplitude of {} at {:.4g} Hz, of up to {} solution points of a curve the one that seems "
+      "to change most, changes by {} of the highest peak beyond what the change of the peak makes "
+      "there",
       there->curve, there->where_hz, most_points_to_check, percent_text(std::abs(there->effect)));
   effect.reason += "; " + text;
   if (matters_there(rows, tolerance, effect.name)) effect.objection = "left out, and " + text;

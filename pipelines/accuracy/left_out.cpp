@@ -430,7 +430,8 @@ std::vector<ErrorRow> solved_places(const CurveResult& result, const std::string
     if (place == places.front()) {
       solve(point);
     } else {
-      others.push_back({std::abs(beyond(there.estimate(point), point)), &point});
+      const double estimate = std::abs(beyond(there.estimate(point), point));
+      others.push_back({std::isfinite(estimate) ? estimate : 0.0, &point});
     }
   }
   std::ranges::stable_sort(others, std::ranges::greater{}, &Place::estimate);

@@ -52,8 +52,8 @@ auto members(Is<Patch> auto& value) {
 
 namespace pipelines {
 auto members(Is<HarmonicSettings> auto& value) {
-  auto& [highest, orders, tolerance, checked] = value;
-  return std::tie(highest, orders, tolerance, checked);
+  auto& [highest, orders, tolerance, checked, or_one] = value;
+  return std::tie(highest, orders, tolerance, checked, or_one);
 }
 auto members(Is<ReducedModel> auto& value) {
   auto& [frequency, n_attachment, damping, sine, cosine, force_static, output, patches, preload,

@@ -77,10 +77,10 @@ auto members(Is<PatchShares> auto& value) {
   return std::tie(patch, reports);
 }
 auto members(Is<CurveResult> auto& value) {
-  auto& [name, load, curve, maps, patch_shares, gap, integrated, richer, bar] = value;
+  auto& [name, load, curve, maps, patch_shares, gap, integrated, richer, lacks_time, bar] = value;
   static_cast<void>(maps);  // drawn in a stage of their own, after the curves
   static_cast<void>(bar);   // told in a stage of its own as well
-  return std::tie(name, load, curve, patch_shares, gap, integrated, richer);
+  return std::tie(name, load, curve, patch_shares, gap, integrated, richer, lacks_time);
 }
 auto members(Is<OptimumOfFactor> auto& value) {
   auto& [parameter, factor, optimum, range, widened, n_harmonics] = value;

@@ -358,11 +358,14 @@ struct CurveTime {
   bool is_share = false;  ///< of what all curves may take
 };
 
+CurveTime time_without_share(const SceneDescription& scene) {
+  return {scene.response->time_budget, "response.time_budget", remedy_of_time()};
+}
+
 CurveTime time_of_curve(const SceneDescription& scene) {
-  const CurveTime own{scene.response->time_budget, "response.time_budget", remedy_of_time()};
-  const std::size_t n = curve_requests(scene).size();
-  const double share = scene.accuracy.budget / static_cast<double>(std::max<std::size_t>(n, 1));
-  if (n < 2 || !(share < own.seconds)) return own;
+  const CurveTime own = time_without_share(scene);
+  const double share = share_of_time();
+  if (!(share < own.seconds)) return own;
   return {share, "its share of accuracy.budget", "give more of it, or ask for fewer curves", true};
 }
 
@@ -377,10 +380,18 @@ bool tell_time_is_over(const CurveTime& time, solver::ResponseCurve& curve) {
   return true;
 }
 
-/// One harmonic, for a curve that with several takes more than its share of a budget: all of it.
 SceneDescription with_one_harmonic(SceneDescription scene) {
   scene.settings.harmonics = {.highest = 1};
   return scene;
+}
+
+/// One harmonic in the place of several, for which there was no time.
+CurveResult told_lean(CurveResult lean, const CurveTime& time) {
+  lean.lacks_time = true;
+  lean.curve.message +=
+      fmt::format("{}with one harmonic: with more {}, {:.4g} s, was over; {}",
+                  lean.curve.message.empty() ? "" : "; ", time.name, time.seconds, time.remedy);
+  return lean;
 }
 
 solver::ResponseCurve linear_curve(const ReducedModel& model, LimitName limit,
@@ -449,19 +460,23 @@ solver::ResponseCurve limit_curve(const ReducedModel& model, const SceneDescript
   return linear_curve(model, limit, continuation_options(scene, model));
 }
 
-CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene,
-                        const CurveRequest& request, const solver::PointObserver& observe,
-                        const solver::ResponseCurve* near) {
-  const CurveTime time = time_of_curve(scene);
+namespace {
+
+/// trace_curve() within a time.
+CurveResult traced_within(const CurveTime& time, const ReducedModel& model,
+                          const SceneDescription& scene, const CurveRequest& request,
+                          const solver::PointObserver& observe, const solver::ResponseCurve* near) {
   const TimeLimit limit(time.seconds);
   solver::ContinuationOptions options = continuation_options(scene, model);
   options.stop = [&limit, stop = options.stop] { return limit.is_over() || stop(); };
   const auto within = [&](const auto& point) { return !limit.is_over() && observe(point); };
   CurveResult result = traced(model, scene, request, within, options, near);
   const bool is_over = limit.is_over();
-  if (is_over && time.is_share && scene.settings.harmonics.highest > 1 && !result.integrated) {
-    CurveResult lean = trace_curve(model, with_one_harmonic(scene), request, observe, near);
-    if (lean.curve.complete) return lean;
+  const bool has_end = result.curve.complete || interrupt_requested() || cut_short();
+  if (is_over && time.is_share && scene.settings.harmonics.or_one && !has_end) {
+    CurveResult lean = traced_within(time_without_share(scene), model, with_one_harmonic(scene),
+                                     request, observe, near);
+    if (lean.curve.complete) return told_lean(std::move(lean), time);
   }
   const bool by_time = is_over && tell_time_is_over(time, result.curve);
   tell_remedy(by_time ? time.remedy : remedy_of(result.curve.diagnosis, scene.response->method),
@@ -474,6 +489,14 @@ CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene
                     [&] { return limit.is_over() || of_check.is_over(); });
   }
   return result;
+}
+
+}  // namespace
+
+CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene,
+                        const CurveRequest& request, const solver::PointObserver& observe,
+                        const solver::ResponseCurve* near) {
+  return traced_within(time_of_curve(scene), model, scene, request, observe, near);
 }
 
 solver::ResponseCurve integrated_elsewhere(const ReducedModel& model, const SceneDescription& scene,

@@ -45,6 +45,7 @@ struct CurveResult {
   std::optional<double> gap{};              ///< width of the uniform gap that the load is [m]
   bool integrated = false;  ///< in time: to the tolerance of integration, not to rounding
   std::optional<solver::RicherPeak> richer{};  ///< the peak with more harmonics than were given
+  bool lacks_time = false;      ///< solved with fewer harmonics than were to be had with more time
   std::optional<double> bar{};  ///< of the peak's amplitude, relative half width; none: not told
 };
 

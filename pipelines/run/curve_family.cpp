@@ -62,6 +62,14 @@ std::vector<std::size_t> order_of(const std::vector<CurveRequest>& requests, dou
   return order;
 }
 
+/// Curves under a load that are not begun before a place in the order; linear limits take no time.
+std::size_t n_loaded(const std::vector<CurveRequest>& requests,
+                     const std::vector<std::size_t>& order, std::size_t place) {
+  return static_cast<std::size_t>(std::count_if(
+      order.begin() + static_cast<std::ptrdiff_t>(place), order.end(),
+      [&](std::size_t i) { return std::holds_alternative<double>(requests[i].load); }));
+}
+
 void tell_shares(const std::vector<int>& solved, Progress& progress) {
   if (solved.size() == 1) return;
   progress.info(fmt::format("curves solved on each MPI rank: {}", fmt::join(solved, ", ")));
@@ -98,14 +106,19 @@ std::vector<CurveResult> trace_family(const ReducedModel& model, const SceneDesc
     } else {
       const TimeLimit limit(scene.response->time_budget);
       const TimeLimit of_check(share_of_check * scene.accuracy.budget);
+      // One share more, for what takes too long and for errors.
+      share_time_among(1.0 + static_cast<double>(n_loaded(requests, order, place)) / jobs);
       results[i] = solve(requests[i], observe, nullptr);
+      const bool lacks_time =
+          results[i].lacks_time || results[i].curve.diagnosis == solver::Diagnosis::budget;
       // Else it may be cut short, or have fewer harmonics than it was to have.
-      if (!interrupt_requested() && !time_is_short()) {
+      if (!interrupt_requested() && !time_is_short() && !lacks_time) {
         record.keep_finished(results[i]);
         // With more time it may have had its harmonics checked, or other solutions beside it.
-        const bool had_time = results[i].curve.diagnosis != solver::Diagnosis::budget &&
-                              (results[i].richer || !of_check.is_over());
-        if (!limit.is_over() && had_time) kept_results.keep(results[i]);
+        const bool unchecked = of_check.is_over() && !results[i].richer &&
+                               results[i].curve.certificate.empty() &&
+                               harmonics_to_check(model, scene) > 0;
+        if (!limit.is_over() && !unchecked) kept_results.keep(results[i]);
       }
     }
     ++done;
@@ -115,7 +128,19 @@ std::vector<CurveResult> trace_family(const ReducedModel& model, const SceneDesc
       record.keep_curve(results[kept], model);
     }
   };
-  tell_shares(share_curves(model, scene, requests.size(), jobs, trace), record.progress());
+  // Of those that have ended, whichever were begun first.
+  const auto keep_the_rest = [&] {
+    for (; kept < finished.size(); ++kept) {
+      if (finished[kept]) record.keep_curve(results[kept], model);
+    }
+  };
+  try {
+    tell_shares(share_curves(model, scene, requests.size(), jobs, trace), record.progress());
+  } catch (const InterruptedError&) {
+    keep_the_rest();
+    throw;
+  }
+  share_time_among(1.0);
   stop_if_interrupted("points");
   return results;
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "pipelines/accuracy/models_left_out.hpp"
 #include "pipelines/effects/curve_cost.hpp"
 
 namespace microslip::pipelines {
@@ -22,7 +23,8 @@ SceneDescription first_settings(SceneDescription scene) {
   const double budget = scene.accuracy.budget;
   const bool by_time = std::isfinite(budget) && scene.accuracy.tolerance > 0.0;
   if (!by_time || !scene.settings.harmonics.chosen()) return scene;
-  scene.settings.harmonics = {.highest = several};
+  if (only_limits(scene)) return scene;
+  scene.settings.harmonics = {.highest = several, .or_one = true};
   if (!(seconds_of_curves(scene) < half * budget)) scene.settings.harmonics = {.highest = 1};
   return scene;
 }

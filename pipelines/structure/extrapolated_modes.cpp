@@ -268,7 +268,8 @@ SolvedStructure solved_likewise(SceneDescription scene, const SolvedStructure& l
   const SolvedStructure twice = on_larger_elements(scene, 2.0, basis.n_free());
   const fem::ModalBasis coarse =
       at_nodes(mesh::interpolation(twice.mesh, structure.mesh.nodes()), twice.modes.basis);
-  constexpr double nearest = 0.0;
+  // Where shapes turn among one another they are left as they are.
+  constexpr double nearest = 0.9;
   extrapolate(basis, coarse, matches(basis, coarse, nearest),
               of_columns(basis, like.coarser->ratios));
   structure.modes.richer.reset();  // not extrapolated

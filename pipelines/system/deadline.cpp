@@ -14,6 +14,7 @@ using Clock = std::chrono::steady_clock;
 std::atomic<double> allowed{std::numeric_limits<double>::infinity()};
 std::atomic<Clock::time_point> begin{Clock::now()};
 std::atomic<bool> was_cut{false};
+std::atomic<double> sharing{1.0};
 
 }  // namespace
 
@@ -23,6 +24,14 @@ void begin_deadline(double seconds, double spent) {
   begin = Clock::now() - before;
   allowed = seconds;
   was_cut = false;
+  sharing = 1.0;
+}
+
+void share_time_among(double n) { sharing = n; }
+
+double share_of_time() {
+  const double n = sharing;
+  return n > 1.0 ? std::max(seconds_to_work() / n, 0.0) : std::numeric_limits<double>::infinity();
 }
 
 double seconds_spent() {

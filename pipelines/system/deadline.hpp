@@ -26,6 +26,12 @@ void begin_deadline(double seconds, double spent = 0.0);
 bool leave_out();
 [[nodiscard]] bool was_cut_short();
 
+/// From now on so many things of a kind are to share the time there is, those of now included.
+/// @param n  > 0; infinite time is not shared. With begin_deadline(): one.
+void share_time_among(double n);
+/// What each may take of seconds_to_work(); infinite where one has all of it.
+[[nodiscard]] double share_of_time();
+
 /// What one thing may take, from where this is made.
 class TimeLimit {
  public:

@@ -1,5 +1,7 @@
 // A curve ends with the points it has when its time is over.
+#include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -8,6 +10,7 @@
 #include "pipelines/model/contact_stage.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/scene/scene_file.hpp"
+#include "pipelines/system/deadline.hpp"
 
 namespace microslip::pipelines::test_time_budget {
 namespace {
@@ -57,6 +60,34 @@ TEST(TimeBudget, EndsACurveByItsName) {
     ASSERT_FALSE(cut.curve.points.empty());
     EXPECT_EQ(cut.curve.points.front().amplitude, whole.curve.points.front().amplitude);
   }
+}
+
+/// With a budget shared among so many that nothing is left for one.
+CurveResult curve_without_share(HarmonicSettings harmonics) {
+  SceneDescription scene = parse_scene(chain, "scene.toml", "/nowhere", {});
+  scene.settings.harmonics = std::move(harmonics);
+  ReducedModel model = reduced_model(scene);
+  model.effects = contact_effects(model, scene);
+  begin_deadline(1000.0);
+  share_time_among(1e12);
+  CurveResult result =
+      trace_curve(model, scene, curve_requests(scene).front(), [](const auto&) { return true; });
+  begin_deadline(std::numeric_limits<double>::infinity());
+  return result;
+}
+
+TEST(TimeBudget, OfARunIsSharedByItsCurves) {
+  const CurveResult given = curve_without_share({.highest = 3});
+  EXPECT_FALSE(given.curve.complete);
+  EXPECT_FALSE(given.lacks_time);  // harmonics of the user stay
+  EXPECT_EQ(given.curve.diagnosis, solver::Diagnosis::budget);
+  EXPECT_NE(given.curve.message.find("its share of accuracy.budget"), std::string::npos)
+      << given.curve.message;
+  const CurveResult lean = curve_without_share({.highest = 3, .or_one = true});
+  EXPECT_TRUE(lean.curve.complete) << lean.curve.message;
+  EXPECT_TRUE(lean.lacks_time);
+  EXPECT_EQ(lean.curve.points.front().q.n_harmonics(), 1);
+  EXPECT_NE(lean.curve.message.find("with one harmonic"), std::string::npos);
 }
 
 TEST(TimeBudget, EndsAChoiceOfHarmonics) {
