@@ -12,7 +12,7 @@ PROGRAM, SOURCE, WORK = sys.argv[1:4]
 SCENE = os.path.join(SOURCE, "share", "scenes", "blade_to_ground.toml")
 COARSE = ('model.element_size="20 mm"', "response.harmonics=1", "response.optimum=", "response.optimum_range=")
 MANY = ('model.element_size="10 mm"', "modes.count=300")  # by the forecast 2.5 s
-LEFT = "the first two by `check` as well once `modes` or a run has kept the modes"
+LEFT = "the first two by `check` as well once the modes are quickly solved for, or kept by `modes` or a run"
 
 
 class CheckedModes(unittest.TestCase):
