@@ -123,13 +123,6 @@ void add_marks(CurveBudget& budget, const ReducedModel& model, const RicherModel
                          ErrorKind::estimated, seconds});
 }
 
-/// The choice of harmonics was cut short, or did not end.
-bool is_unsettled(const solver::ResponseCurve& curve) {
-  return std::ranges::any_of(curve.log, [](const solver::SolverEvent& event) {
-    return event.remedy == solver::Remedy::harmonics_kept;
-  });
-}
-
 /// Of a choice that did not end: told at all, and so small that the peak keeps its frequency.
 bool is_small_part(double left_out) {
   constexpr double most = 0.1;
@@ -196,6 +189,12 @@ const ErrorRow* largest_row(const std::vector<CurveBudget>& budgets, const std::
 }
 
 }  // namespace
+
+bool is_unsettled(const solver::ResponseCurve& curve) {
+  return std::ranges::any_of(curve.log, [](const solver::SolverEvent& event) {
+    return event.remedy == solver::Remedy::harmonics_kept;
+  });
+}
 
 CurveBudget with_harmonics_of(CurveBudget before, const CurveBudget& now) {
   constexpr const char* harmonics = "harmonics";

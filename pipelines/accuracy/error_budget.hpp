@@ -33,6 +33,9 @@ struct CurveBudget {
 [[nodiscard]] CurveBudget error_budget(const ReducedModel& model, const SceneDescription& scene,
                                        const RicherModels& richer, const CurveResult& result);
 
+/// The choice of its harmonics was cut short, or did not end.
+[[nodiscard]] bool is_unsettled(const solver::ResponseCurve& curve);
+
 /// Errors of a curve that got other harmonics alone, where there is no time to tell the others
 /// again: those of the curve before, but for the harmonics.
 /// @param now  has them, and what friction dissipates.

@@ -27,7 +27,8 @@ const char* kernels_of_processor() {
 std::string_view kernels_in_use() {
   using Name = char*();
   auto* name = reinterpret_cast<Name*>(dlsym(RTLD_DEFAULT, "openblas_get_corename"));
-  return name != nullptr ? name() : "";
+  const char* found = name != nullptr ? name() : nullptr;
+  return found != nullptr ? found : "";
 }
 
 }  // namespace

@@ -39,10 +39,7 @@ std::vector<std::size_t> curves_to_solve(const Solution& before, const Refinemen
 
 /// Solved to its end with the harmonics of a step, though the time was over before others were.
 bool is_finished(const solver::ResponseCurve& curve) {
-  const bool kept_few = std::ranges::any_of(curve.log, [](const solver::SolverEvent& event) {
-    return event.remedy == solver::Remedy::harmonics_kept;
-  });
-  return curve.complete && !kept_few;
+  return curve.complete && !is_unsettled(curve);
 }
 
 /// Where other harmonics alone are asked for within a budget of time: curves that are not finished
