@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -31,19 +32,28 @@ ContinuationOptions widened(ContinuationOptions range) {
   return range;
 }
 
-/// From set to set; empty where one of them is not reached.
-std::optional<LocalPeak> through(const Scene& scene, const ContinuationOptions& range,
-                                 HarmonicSet set, std::optional<LocalPeak> peak,
-                                 const std::vector<int>& highest) {
+/// A peak and the harmonics it has.
+struct CarriedPeak {
+  LocalPeak peak;
+  HarmonicSet set;
+  int highest;
+};
+
+/// To all harmonics up to `highest`, in halves where the way is too long for Newton's method.
+std::optional<CarriedPeak> carried_to(const Scene& scene, const ContinuationOptions& range,
+                                      const CarriedPeak& from, int highest) {
+  const HarmonicSet set = from.set.united(HarmonicSet(highest).orders());
+  const HarmonicBalance coarse(scene, from.set);
+  HarmonicBalance richer(scene, set);
   PeakWork work;
-  for (const int next : highest) {
-    if (!peak) break;
-    const HarmonicBalance coarse(scene, set);
-    set = set.united(HarmonicSet(next).orders());
-    HarmonicBalance richer(scene, set);
-    peak = level_point(richer, embedded(*peak, coarse, richer), range, work, farthest);
+  const LocalPeak start = embedded(from.peak, coarse, richer);
+  if (auto peak = level_point(richer, start, range, work, farthest)) {
+    return CarriedPeak{std::move(*peak), set, highest};
   }
-  return peak;
+  const int between = std::midpoint(from.highest, highest);
+  if (between == from.highest) return std::nullopt;
+  const std::optional<CarriedPeak> half = carried_to(scene, range, from, between);
+  return half ? carried_to(scene, range, *half, highest) : std::nullopt;
 }
 
 /// The highest point of a curve, as it was written and with what others start from.
@@ -131,22 +141,17 @@ std::optional<RicherPeak> richer_peak(const Scene& scene, const ContinuationOpti
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
   RicherPeak result{top->point.frequency, top->point.amplitude, std::nullopt, highest};
-  const int given = coarse.set().highest();
-  const ContinuationOptions wide = widened(range);
-  std::optional<LocalPeak> found = through(scene, wide, coarse.set(), top->peak, {highest});
-  // A peak that is far is nearer by steps.
-  if (!found) {
-    found =
-        through(scene, wide, coarse.set(), top->peak, {given + 1, given + 2, given + 4, highest});
-  }
+  const std::optional<CarriedPeak> carried =
+      carried_to(scene, widened(range), {top->peak, coarse.set(), coarse.set().highest()}, highest);
   result.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-  if (!found) return result;
-  result.frequency = found->point.parameter;
-  result.amplitude = found->amplitude;
-  HarmonicBalance richer(scene, coarse.set().united(HarmonicSet(highest).orders()));
-  result.dissipated_energy = energy_of(richer, *found);
-  if (found->amplitude > 0.0) {
-    result.change = (found->amplitude - top->point.amplitude) / found->amplitude;
+  if (!carried) return result;
+  const LocalPeak& found = carried->peak;
+  result.frequency = found.point.parameter;
+  result.amplitude = found.amplitude;
+  HarmonicBalance richer(scene, carried->set);
+  result.dissipated_energy = energy_of(richer, found);
+  if (found.amplitude > 0.0) {
+    result.change = (found.amplitude - top->point.amplitude) / found.amplitude;
   }
   return result;
 }
