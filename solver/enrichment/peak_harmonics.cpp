@@ -39,6 +39,16 @@ std::vector<int> beyond(const HarmonicSet& set, const Harmonics& force, double s
   return orders;
 }
 
+/// @param peak  solved with `fewer`.
+PeakHarmonics pruned_to(const PeakHarmonics& rich, const HarmonicSet& fewer,
+                        const LocalPeak& peak) {
+  PeakHarmonics result = rich;
+  result.left_out += std::abs(peak.amplitude / rich.peak->amplitude - 1.0);
+  result.set = fewer;
+  result.peak = peak;
+  return result;
+}
+
 }  // namespace
 
 PeakHarmonicsChoice::PeakHarmonicsChoice(const Scene& scene, const ContinuationOptions& range)
@@ -130,6 +140,7 @@ PeakHarmonics PeakHarmonicsChoice::choose(const HarmonicSet& set, const LocalPea
                                           const HarmonicSet& more) {
   PeakHarmonics result{set.united(more.orders()), peak};
   if (result.set != set) result.peak = solved(set, peak, result.set);
+  const PeakHarmonics fewest = result;
   settle(result);
   if (result.peak) {
     HarmonicBalance balance(scene_, result.set);
@@ -141,6 +152,11 @@ PeakHarmonics PeakHarmonicsChoice::choose(const HarmonicSet& set, const LocalPea
   }
   if (!result.settled) return result;
   const PeakHarmonics rich = result;
+  const bool is_least = fewest.set == more.united(least_.orders());
+  const double allowed = may_be_pruned * range_.harmonic_tolerance;
+  if (is_least && same(*rich.peak, *fewest.peak, allowed)) {
+    return pruned_to(rich, fewest.set, *fewest.peak);
+  }
   prune(result, more);
   try_first_ones(result, rich, more);
   return result;
@@ -180,11 +196,7 @@ std::optional<PeakHarmonics> PeakHarmonicsChoice::without(const PeakHarmonics& r
                                                           const HarmonicSet& fewer) {
   std::optional<LocalPeak> peak = solved(rich.set, *rich.peak, fewer);
   if (!peak || !same(*rich.peak, *peak, may_be_pruned * range_.harmonic_tolerance)) return {};
-  PeakHarmonics result = rich;
-  result.left_out += std::abs(peak->amplitude / rich.peak->amplitude - 1.0);
-  result.set = fewer;
-  result.peak = std::move(peak);
-  return result;
+  return pruned_to(rich, fewer, *peak);
 }
 
 /// Takes out as many as can be found by bisection.
