@@ -3,12 +3,11 @@
 /// to the size h of the elements, whatever their order: halving it halves the error and costs ten
 /// times as much. Meshes of 2h and 4h tell most of it for less than that of h takes:
 ///
-///   x = x_h + (x_h − x_2h) / (2^p − 1),    2^p = (ω_4h − ω_2h) / (ω_2h − ω_h)
+///   x = x_h + (x_h − x_2h) / (2^p − 1)
 ///
 /// for ω² and the shape of every mode and attachment shape that the meshes of 2h and 4h have
-/// too and whose frequencies converge, with 2^p of its own between 2 (re-entrant edges) and 16
-/// (smooth fields, quadratic elements). Others stay; so do residual flexibility and a static
-/// preload.
+/// too and whose frequencies converge, with 2^p of observed_ratio(). Others stay; so do residual
+/// flexibility and a static preload.
 ///
 /// Source: Richardson, The deferred approach to the limit, Phil. Trans. R. Soc. A 226 (1927)
 /// 299–361.
@@ -44,7 +43,9 @@ struct CoarserMeshes {
 [[nodiscard]] SolvedStructure on_larger_elements(const SceneDescription& scene, double factor,
                                                  Eigen::Index n_modes);
 
-/// 2^p of three meshes, as above.
+/// 2^p = (ω_4h − ω_2h) / (ω_2h − ω_h) of three meshes, at most 16 (smooth fields, quadratic
+/// elements). Below 2^2.5 it is that of re-entrant edges, h^1.09: meshes show the rate of the
+/// coarsest then, which is not that of what is left on the finest.
 [[nodiscard]] double observed_ratio(double fine, double coarse, double coarsest);
 
 /// Extrapolates the modes of a structure and keeps what they are extrapolated from.
