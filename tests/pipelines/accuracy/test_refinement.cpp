@@ -131,6 +131,20 @@ TEST(Refinement, TheErrorOfTheMeshIsDoubtedWhereHarmonicsMoveThePeak) {
   EXPECT_TRUE(out_of_reach->new_mesh);
 }
 
+// Several times as slow, and told at a peak that more harmonics move.
+TEST(Refinement, FrictionAlongRWaitsWhereHarmonicsMoveThePeak) {
+  std::string left;
+  const auto takes_it = [&](double along_r, double harmonics) {
+    const auto step =
+        refinement(blade(), {budget({{"second_direction", along_r}, {"harmonics", harmonics}})},
+                   tolerance, spent, left);
+    return step && step->text.find("both directions") != std::string::npos;
+  };
+  EXPECT_TRUE(takes_it(0.019, 0.015));
+  EXPECT_FALSE(takes_it(0.019, 0.05));
+  EXPECT_TRUE(takes_it(0.1, 0.05)) << "it alone is too much";
+}
+
 // The curve that is nearly exact enough waits for the next round, when the others are known better.
 TEST(Refinement, LargeErrorsAreNotRefinedToTheEndAtOnce) {
   std::string left;
