@@ -1,6 +1,7 @@
 #!/bin/sh
 # Installs what is missing, builds everything and runs all tests: the benchmarks apart, and a tenth of each
-# campaign (share/scripts/campaigns.sh runs them whole).
+# campaign (share/scripts/campaigns.sh runs them whole). Where it is given no arguments those that are not slow run once more
+# under sanitizers (share/scripts/sanitize.sh runs all of them).
 #
 #   share/scripts/test.sh [ctest arguments …]
 set -eu
@@ -14,4 +15,7 @@ if [ -z "${PVBATCH:-}" ]; then
     echo "test: no ParaView: the test of its macro is skipped"
   fi
 fi
-exec ctest --test-dir "$root/build" --output-on-failure -LE benchmark -j2 "$@"
+code=0
+ctest --test-dir "$root/build" --output-on-failure -LE benchmark -j2 "$@" || code=$?
+[ "$#" -gt 0 ] || "$root/share/scripts/sanitize.sh" --quick || code=$?
+exit "$code"
