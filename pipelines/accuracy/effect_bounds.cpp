@@ -30,20 +30,25 @@ bool tells_without_peak(const ErrorRow& row, std::string_view source) {
                                   row.goal == peak_outside_goal || row.goal == one_frequency_goal);
 }
 
-std::optional<double> largest_change(const std::vector<ErrorRow>& rows, const std::string& source) {
-  std::optional<double> largest;
+const ErrorRow* largest_change(const std::vector<ErrorRow>& rows, std::string_view source) {
+  const ErrorRow* largest = nullptr;
   for (const ErrorRow& row : rows) {
     if (!tells_change(row, source)) continue;
-    largest = std::max(std::abs(row.effect), largest.value_or(0.0));
+    if (largest == nullptr || std::abs(row.effect) > std::abs(largest->effect)) largest = &row;
   }
   return largest;
 }
 
-std::string objection_of(double bound) {
-  if (std::isinf(bound)) {
+/// A lower peak may be the one that changes most.
+std::string objection_of(const ErrorRow& change) {
+  if (std::isinf(change.effect)) {
     return "left out, and with it the highest peak is not found from that without";
   }
-  return "left out, and having it changes the highest peaks by up to " + percent_text(bound);
+  const std::string where =
+      change.where_hz > 0.0 ? fmt::format(" at {:.4g} Hz", change.where_hz) : std::string();
+  return fmt::format(
+      "left out, and having it changes the peaks by up to {} of the highest of their curve ({}{})",
+      percent_text(std::abs(change.effect)), change.curve, where);
 }
 
 /// Of a source and a goal, over all curves.
@@ -98,7 +103,9 @@ std::string words_of(const ErrorRow& row, std::string_view goal) {
 
 /// @param tolerance  a resonance that changes by more is told in place of the end of the range.
 Told told_of(const std::vector<ErrorRow>& rows, const std::string& source, double tolerance) {
-  Told told{largest_change(rows, source)};
+  Told told;
+  if (const ErrorRow* largest = largest_change(rows, source))
+    told.bound = std::abs(largest->effect);
   for (const char* goal :
        {resonance_goal, end_amplitude_goal, peak_outside_goal, one_frequency_goal}) {
     const ErrorRow* row = largest_row(rows, source, goal);
@@ -261,7 +268,9 @@ void tell_bounds(const std::vector<ErrorRow>& rows, double tolerance,
     const Told told = told_of(rows, source, tolerance);
     if (told.anything()) effect.bound = told.words.empty() ? told.bound : std::nullopt;
     for (const std::string& words : told.words) effect.reason += "; " + words;
-    if (told.bound && *told.bound > tolerance) effect.objection = objection_of(*told.bound);
+    if (told.bound && *told.bound > tolerance) {
+      effect.objection = objection_of(*largest_change(rows, source));
+    }
     if (told.bound && *told.bound <= tolerance && !matters_there(rows, tolerance, effect.name)) {
       effect.objection = "";
     }

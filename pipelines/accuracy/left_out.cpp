@@ -34,6 +34,7 @@ constexpr double not_there = std::numeric_limits<double>::infinity();
 struct Change {
   const char* goal;
   double effect;
+  double where = 0.0;  ///< of the peak without it [rad/s]; 0: of no one peak
 };
 using Changes = std::vector<Change>;
 
@@ -54,6 +55,12 @@ std::vector<solver::ResponseCurve> single_peaks(const solver::ResponseCurve& cur
 }
 
 double larger(double a, double b) { return std::abs(b) > std::abs(a) ? b : a; }
+
+void keep_larger(Change& most, double effect, const solver::ResponsePoint& peak) {
+  if (!(std::abs(effect) >= std::abs(most.effect))) return;
+  most.effect = effect;
+  most.where = peak.frequency;
+}
 
 /// [rad/s], of a curve.
 struct Range {
@@ -197,14 +204,64 @@ Changes without_peak(const Comparison& of, const Range& range) {
   return at_end(resonance_change(of.own, of.with, range), change);
 }
 
+/// What having an effect makes of a lower peak that is not found with it.
+class LostPeaks {
+ public:
+  explicit LostPeaks(const Comparison& of) : of_(of) {}
+
+  /// Of a local maximum that becomes a shoulder the amplitude at its frequency tells; of one that
+  /// moves far the peak of the whole curve with the effect that none of the others is nearer to;
+  /// the smaller change counts. With neither, all that the peak has.
+  std::optional<solver::PeakOfBoth> found(const solver::ResponseCurve& peak) {
+    constexpr double shoulder = 0.1;  // of its amplitude
+    std::optional<solver::PeakOfBoth> there = at_its_frequency(peak);
+    if (there && change_of(*there) < shoulder * there->amplitude) return there;
+    const std::optional<solver::PeakOfBoth> moved = of_whole_curve(*highest_peak(peak));
+    return moved && (!there || change_of(*moved) < change_of(*there)) ? moved : there;
+  }
+
+ private:
+  /// [m]
+  static double change_of(const solver::PeakOfBoth& both) {
+    const double shift = both.other_frequency / both.frequency - 1.0;
+    return std::max(std::abs(both.other_amplitude - both.amplitude),
+                    std::abs(shift) * both.amplitude);
+  }
+
+  [[nodiscard]] std::optional<solver::PeakOfBoth> at_its_frequency(
+      const solver::ResponseCurve& peak) const {
+    solver::ResponseCurve alone;
+    alone.points = {*highest_peak(peak)};
+    alone.points.front().mark = solver::PointMark::none;  // its frequency stays
+    solver::ContinuationOptions there = of_.options;
+    there.frequency_begin = there.frequency_end = alone.points.front().frequency;
+    return solver::peak_elsewhere(of_.own, there, alone, {of_.with.scene, of_.with.embedding, 1.0});
+  }
+
+  [[nodiscard]] std::optional<solver::PeakOfBoth> of_whole_curve(const solver::ResponsePoint& own) {
+    if (!std::exchange(is_asked_, true)) {
+      whole_ = traced_with(of_.with, of_.options, of_.curve, of_.seconds);
+    }
+    if (!whole_) return std::nullopt;
+    const solver::ResponsePoint& other = *nearest_peak(*whole_, own.frequency);
+    if (nearest_peak(of_.curve, other.frequency)->frequency != own.frequency) return std::nullopt;
+    return pair_of(own, other);
+  }
+
+  const Comparison& of_;
+  std::optional<solver::ResponseCurve> whole_;  // with the effect
+  bool is_asked_ = false;
+};
+
 Changes changes_of(const Comparison& of) {
   const Range range = range_of(of.options);
   const std::vector<solver::ResponseCurve> peaks = single_peaks(of.curve);
   const bool has_peak = peaks.front().points.front().mark == solver::PointMark::peak ||
                         range.has(highest_peak(of.curve)->frequency);
   if (!has_peak && !range.is_point()) return without_peak(of, range);
-  double height = 0.0;
-  double place = 0.0;
+  Change height{peak_amplitude_goal, 0.0};
+  Change place{peak_frequency_goal, 0.0};
+  LostPeaks lost(of);
   std::optional<solver::ResponseCurve> whole;  // with the effect, where nothing less tells
   double moved = 1.0;                          // frequency of the highest then
   for (std::size_t i = 0; i < (of.all_peaks ? peaks.size() : 1); ++i) {
@@ -222,23 +279,24 @@ Changes changes_of(const Comparison& of) {
         moved = both->other_frequency / both->frequency;
       }
     }
+    if (!both && i > 0) both = lost.found(peaks[i]);
     if (both) {
       const double shift = both->other_frequency / both->frequency - 1.0;
       if (i == 0 && !range.is_point() && !range.has(both->other_frequency)) {
         return {{peak_outside_goal, shift}};
       }
-      height = larger(height, (both->other_amplitude - both->amplitude) / of.highest);
-      place = larger(place, shift * both->amplitude / of.highest);
+      keep_larger(height, (both->other_amplitude - both->amplitude) / of.highest, peak);
+      keep_larger(place, shift * both->amplitude / of.highest, peak);
     } else if (i == 0) {
       const double shift = resonance_change(of.own, of.with, range);
       const bool leaves =
           !range.is_point() && !range.has((1.0 + shift) * highest_peak(of.curve)->frequency);
       return leaves ? Changes{{peak_outside_goal, shift}} : not_found;
     } else {  // a lower one that is lost changes by all it has
-      height = larger(height, -peak.amplitude / of.highest);
+      keep_larger(height, -peak.amplitude / of.highest, peak);
     }
   }
-  return {{peak_amplitude_goal, height}, {peak_frequency_goal, place}};
+  return {height, place};
 }
 
 /// The static preload with an effect may be another one.
@@ -488,7 +546,8 @@ std::vector<ErrorRow> rows_left_out(const ReducedModel& simulated, const SceneDe
     for (const Change& change : changes) {
       const ErrorKind kind =
           std::isfinite(change.effect) ? ErrorKind::solved : ErrorKind::estimated;
-      rows.push_back({result.name, change.goal, other.source, change.effect, kind, seconds});
+      rows.push_back({result.name, change.goal, other.source, change.effect, kind, seconds,
+                      change.where / contact::two_pi});
     }
   }
   return rows;

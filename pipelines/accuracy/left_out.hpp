@@ -26,7 +26,8 @@ namespace microslip::pipelines {
 /// @param result  a curve of the model.
 /// @return rows of these goals, `source` the name of the effect: the largest change of all peaks of
 ///         the curve (of several effects together of the highest alone), of amplitude over the
-///         highest one, a lower peak that is not found changing by all it has; infinite: the
+///         highest one, a lower peak that is not found changing by what the whole curve with
+///         the effect, or the amplitude at its frequency, tells, else by all it has; infinite: the
 ///         highest peak with the effect is not found from that of the curve, nor along a curve of
 ///         its own (which is traced where that takes less than a minute), or the load is refused
 ///         with it.
