@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "contact/dense.hpp"
 
@@ -18,22 +19,29 @@ double excited_share(const Harmonics& excitation, int order, const Eigen::Vector
   return all > 0.0 ? (rows * shape).norm() / all : 0.0;
 }
 
+/// Of the modes with a stiffness added.
+std::optional<contact::SymmetricPairs> modes_with(const Scene& scene, Eigen::MatrixXd stiffness) {
+  stiffness.diagonal() += scene.natural_frequency.cwiseAbs2();
+  return contact::symmetric_pairs(stiffness);
+}
+
+/// ζω of a shape.
+double decay_of(const Scene& scene, const Eigen::VectorXd& shape) {
+  return shape.cwiseAbs2().dot(scene.damping_ratio.cwiseProduct(scene.natural_frequency));
+}
+
 }  // namespace
 
 std::optional<double> unbounded_resonance(const Scene& scene, const Eigen::MatrixXd& stiffness,
                                           double begin, double end) {
-  const Eigen::ArrayXd omega = scene.natural_frequency.array();
-  Eigen::MatrixXd total = stiffness;
-  total.diagonal() += omega.square().matrix();
-  const auto modes = contact::symmetric_pairs(total);
+  const auto modes = modes_with(scene, stiffness);
   if (!modes) return std::nullopt;
   const auto [low, high] = std::minmax(begin, end);
   std::optional<double> first;
-  for (Eigen::Index i = 0; i < omega.size(); ++i) {
+  for (Eigen::Index i = 0; i < modes->values.size(); ++i) {
     const Eigen::VectorXd shape = modes->vectors.col(i);
     const double resonance = std::sqrt(std::max(0.0, modes->values[i]));
-    const double damping = (shape.array().square() * scene.damping_ratio.array() * omega).sum();
-    if (damping > negligible * resonance) continue;
+    if (decay_of(scene, shape) > negligible * resonance) continue;
     for (int order = 1; order <= scene.excitation.n_harmonics(); ++order) {
       const double frequency = resonance / order;
       if (frequency < low || frequency > high) continue;
@@ -43,6 +51,28 @@ std::optional<double> unbounded_resonance(const Scene& scene, const Eigen::Matri
     }
   }
   return first;
+}
+
+double DrivenResonances::distance(double omega) const {
+  if (frequency.size() == 0) return std::numeric_limits<double>::infinity();
+  return ((frequency - omega).square() + half_width.square()).sqrt().minCoeff();
+}
+
+DrivenResonances driven_resonances(const Scene& scene, const Eigen::MatrixXd& stiffness,
+                                   const std::vector<int>& orders) {
+  const auto modes = modes_with(scene, stiffness);
+  if (!modes) return {};
+  const Eigen::Index n = modes->values.size();
+  const auto n_orders = static_cast<Eigen::Index>(orders.size());
+  DrivenResonances driven{Eigen::ArrayXd(n * n_orders), Eigen::ArrayXd(n * n_orders)};
+  for (Eigen::Index k = 0; k < n_orders; ++k) {
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const int order = orders[static_cast<std::size_t>(k)];
+      driven.frequency[k * n + i] = std::sqrt(std::max(0.0, modes->values[i])) / order;
+      driven.half_width[k * n + i] = decay_of(scene, modes->vectors.col(i)) / order;
+    }
+  }
+  return driven;
 }
 
 }  // namespace microslip::solver

@@ -1,8 +1,9 @@
 /// @file
-/// Resonances without damping: there the response of a linear structure has no bound.
+/// Resonances of a linear structure; without damping its response has no bound there.
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -16,5 +17,20 @@ namespace microslip::solver {
 [[nodiscard]] std::optional<double> unbounded_resonance(const Scene& scene,
                                                         const Eigen::MatrixXd& stiffness,
                                                         double begin, double end);
+
+/// Where harmonics of the excitation meet resonances of a linear structure.
+struct DrivenResonances {
+  Eigen::ArrayXd frequency;   ///< of the excitation [rad/s]
+  Eigen::ArrayXd half_width;  ///< of the same, by damping [rad/s], to first order in it
+
+  /// Distance in the complex plane of frequencies to the nearest [rad/s]; ∞: there is none.
+  [[nodiscard]] double distance(double omega) const;
+};
+
+/// @param stiffness  as of unbounded_resonance(), symmetric.
+/// @param orders     of the harmonics that are driven.
+[[nodiscard]] DrivenResonances driven_resonances(const Scene& scene,
+                                                 const Eigen::MatrixXd& stiffness,
+                                                 const std::vector<int>& orders);
 
 }  // namespace microslip::solver

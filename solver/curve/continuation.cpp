@@ -94,14 +94,6 @@ ContinuationOptions with_excited_harmonics(const Scene& scene, const Continuatio
       options, HarmonicSet(least_harmonics(scene).orders(), is_loaded ? unknown : left_out));
 }
 
-/// What was evaluated was linear.
-void forget_evaluations(ResponseCurve& curve) {
-  curve.contact_evaluations = 0;
-  curve.state_readings = 0;
-  curve.state_cuts = 0;
-  for (ResponsePoint& point : curve.points) point.contact_evaluations = 0;
-}
-
 /// The linear curve where it is proved to be one; nothing nonlinear is evaluated.
 std::optional<ResponseCurve> trace_certified(const Scene& scene, const ContinuationOptions& options,
                                              const PointObserver& observe) {
@@ -115,8 +107,7 @@ std::optional<ResponseCurve> trace_certified(const Scene& scene, const Continuat
   const Scene linear = with_force(
       scene, std::make_unique<LinearForce>(limit_stiffness(scene, limit), *scene.contact));
   const ContinuationOptions excited = with_excited_harmonics(scene, options);
-  ResponseCurve curve = CurveTracer(linear, excited, observe).run();
-  forget_evaluations(curve);
+  ResponseCurve curve = CurveTracer(linear, excited, observe).run_linear();
   curve.certificate = std::string("proved ") + (stuck ? "fully stuck" : "free of contact") +
                       " over the whole range (" + std::to_string(proof.n_intervals) +
                       " frequency intervals): the linear response is a solution; others may exist";
@@ -129,7 +120,7 @@ ResponseCurve trace_below(const Scene& linear, ContinuationOptions options, doub
   const double way = resonance - options.frequency_begin;
   options.frequency_end = resonance - std::copysign(nearest * resonance, way);
   ResponseCurve curve;
-  if (std::abs(way) > nearest * resonance) curve = trace_response(linear, options);
+  if (std::abs(way) > nearest * resonance) curve = CurveTracer(linear, options, {}).run_linear();
   if (curve.diagnosis != Diagnosis::none) return curve;
   curve.complete = false;
   curve.diagnosis = Diagnosis::unbounded;
@@ -155,8 +146,7 @@ std::optional<ResponseCurve> trace_at_rest(const Scene& scene, const Continuatio
   const Scene linear =
       with_force(scene, std::make_unique<LinearForce>(std::move(stiffness), *scene.contact));
   const ContinuationOptions excited = with_excited_harmonics(scene, options);
-  ResponseCurve curve = CurveTracer(linear, excited, observe).run();
-  forget_evaluations(curve);
+  ResponseCurve curve = CurveTracer(linear, excited, observe).run_linear();
   curve.contact_evaluations = 1;
   curve.certificate =
       "at rest: no force acts and the contact is in balance; other solutions may exist";
@@ -168,11 +158,11 @@ std::optional<ResponseCurve> trace_at_rest(const Scene& scene, const Continuatio
 ResponseCurve trace_response(const Scene& scene, const ContinuationOptions& options,
                              const PointObserver& observe) {
   check_range(options);
-  if (options.frequency_begin == options.frequency_end) {
-    return solve_at_frequency(scene, options.frequency_begin, options);
-  }
   const Stopwatch watch;
   std::optional<ResponseCurve> certified = trace_certified(scene, options, observe);
+  if (!certified && options.frequency_begin == options.frequency_end) {
+    return solve_at_frequency(scene, options.frequency_begin, options);
+  }
   if (!certified) certified = trace_at_rest(scene, options, observe);
   if (!certified && options.harmonic_tolerance > 0.0)
     return trace_choosing(scene, options, observe);
@@ -268,6 +258,8 @@ std::vector<ResponsePoint> points_at_frequency(const Scene& scene, const Respons
 
 ResponseCurve trace_linear(const Scene& scene, LinearLimit limit,
                            const ContinuationOptions& options) {
+  check_range(options);
+  const Stopwatch watch;
   const Eigen::MatrixXd stiffness = scene.contact
                                         ? limit_stiffness(scene, limit)
                                         : Eigen::MatrixXd::Zero(scene.n_modes(), scene.n_modes());
@@ -283,9 +275,10 @@ ResponseCurve trace_linear(const Scene& scene, LinearLimit limit,
   alone.linear_certificate = false;
   const std::optional<double> unbounded =
       unbounded_resonance(scene, stiffness, options.frequency_begin, options.frequency_end);
-  ResponseCurve curve =
-      unbounded ? trace_below(linear, alone, *unbounded) : trace_response(linear, alone);
-  forget_evaluations(curve);
+  ResponseCurve curve = unbounded ? trace_below(linear, alone, *unbounded)
+                                  : CurveTracer(linear, alone, {}).run_linear();
+  note_boundary_peak(curve);
+  curve.seconds = watch.seconds();
   return curve;
 }
 

@@ -81,10 +81,12 @@ StabilityReport CurveTracer::stability_at(const NewtonResult& at) {
 
 Scaling CurveTracer::scaling_at(const NewtonResult& at) {
   Scaling scaling = natural_scaling(*balance_, at.point.x, at.point.parameter);
-  scaling.parameter =
-      std::max(std::clamp(stability_at(at).nearest, narrowest * range_, widest * range_),
-               resolved * at.point.parameter);
+  scaling.parameter = step_within_range(stability_at(at).nearest, at.point.parameter);
   return scaling;
+}
+
+double CurveTracer::step_within_range(double width, double frequency) const {
+  return std::max(std::clamp(width, narrowest * range_, widest * range_), resolved * frequency);
 }
 
 /// Counts what the walker has done since it was asked last.

@@ -24,6 +24,9 @@ class CurveTracer {
 
   /// The curve; never throws for one that cannot be completed.
   [[nodiscard]] ResponseCurve run();
+  /// The same of a scene whose contact is a spring, or that has none: one linear solve a frequency,
+  /// points as dense as resonances are near.
+  [[nodiscard]] ResponseCurve run_linear();
   /// One branch from a solution inside the range, to where it leaves the range or closes. A closed
   /// one ends with the diagnosis `loop`.
   /// @param set  of the unknowns of `start`.
@@ -36,12 +39,18 @@ class CurveTracer {
     double way = 1.0;  ///< sign of the first change of the frequency
   };
 
+  /// Within what a step in frequency may be [rad/s].
+  [[nodiscard]] double step_within_range(double width, double frequency) const;
   [[nodiscard]] Scaling scaling_at(const NewtonResult& at);
+  /// Of a linear scene, with its residual.
+  [[nodiscard]] NewtonResult linear_response(double frequency);
+  [[nodiscard]] double linear_peak(const ResponsePoint& before, const ResponsePoint& now);
   [[nodiscard]] StabilityReport stability_at(const NewtonResult& at);
   [[nodiscard]] StabilityReport judged(const NewtonResult& at, PointMark mark);
   [[nodiscard]] ResponsePoint certified(const NewtonResult& at, PointMark mark);
   /// False: the observer asked to stop.
   [[nodiscard]] bool add(const NewtonResult& at, PointMark mark = PointMark::none);
+  [[nodiscard]] bool add(ResponsePoint point);
   /// True: the walker stalled; false: the curve has ended one way or another.
   [[nodiscard]] bool walk(BranchWalker& walker);
   /// @param way  sign of the first change of the frequency.

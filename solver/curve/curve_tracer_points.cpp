@@ -20,11 +20,10 @@ std::string CurveTracer::at_hertz(const std::string& text, double frequency) {
 }
 
 StabilityReport CurveTracer::judged(const NewtonResult& at, PointMark mark) {
-  StabilityReport slow = stability_at(at);
-  if (!options_.judge_stability) {
-    slow.stability = Stability::not_assessed;
-    return slow;
-  }
+  const auto linear = damped_linear_stability(*balance_);
+  StabilityReport slow = linear ? *linear : stability_at(at);
+  if (!options_.judge_stability) slow.stability = Stability::not_assessed;
+  if (linear || !options_.judge_stability) return slow;
   const double frequency = at.point.parameter;
   const StabilityReport hill =
       hill_stability(*balance_, balance_->harmonics(at.point.x), frequency, slow);
@@ -45,8 +44,9 @@ ResponsePoint CurveTracer::certified(const NewtonResult& at, PointMark mark) {
   return point;
 }
 
-bool CurveTracer::add(const NewtonResult& at, PointMark mark) {
-  ResponsePoint point = certified(at, mark);
+bool CurveTracer::add(const NewtonResult& at, PointMark mark) { return add(certified(at, mark)); }
+
+bool CurveTracer::add(ResponsePoint point) {
   const Clock::time_point now = Clock::now();
   point.contact_evaluations = curve_.contact_evaluations - point_evaluations_;
   point.seconds = std::chrono::duration<double>(now - last_time_).count();

@@ -289,13 +289,18 @@ StabilityReport slow_flow_stability(const HarmonicBalance& balance, const Balanc
   return report;
 }
 
+std::optional<StabilityReport> damped_linear_stability(const HarmonicBalance& balance) {
+  const Harmonics rest(1, balance.scene().n_modes());
+  if (!is_damped_linear(balance.scene(), rest, std::numeric_limits<double>::infinity())) return {};
+  return StabilityReport{Stability::stable, StabilityBasis::damped_linear, 1.0};
+}
+
 StabilityReport hill_stability(const HarmonicBalance& balance, const Harmonics& q, double frequency,
                                StabilityReport slow) {
   StabilityReport report = slow;
-  const Harmonics rest(1, balance.scene().n_modes());
-  if (is_damped_linear(balance.scene(), rest, std::numeric_limits<double>::infinity())) {
-    report.stability = Stability::stable;
-    report.basis = StabilityBasis::damped_linear;
+  if (const auto linear = damped_linear_stability(balance)) {
+    report.stability = linear->stability;
+    report.basis = linear->basis;
     return report;
   }
   if (balance.set().highest() == 1) return slow;

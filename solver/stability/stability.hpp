@@ -70,6 +70,11 @@ struct StabilityReport {
 [[nodiscard]] StabilityReport hill_stability(const HarmonicBalance& balance, const Harmonics& q,
                                              double frequency, StabilityReport slow);
 
+/// Of a scene without contact, or with one that is a spring; empty: not damped, or not known to be
+/// such a scene. det ∂R/∂x = |det D|² > 0.
+[[nodiscard]] std::optional<StabilityReport> damped_linear_stability(
+    const HarmonicBalance& balance);
+
 /// What a verdict may cost.
 enum class PeriodMapEffort {
   /// Modes, two states each, and points of friction along a line together at most 16: some 2 ms.

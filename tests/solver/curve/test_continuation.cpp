@@ -14,6 +14,7 @@
 
 #include "contact/force/point_method_force.hpp"
 #include "contact/plane/planar_cycle.hpp"
+#include "solver/balance/linear_force.hpp"
 #include "solver/curve/curve_tracer.hpp"
 #include "tests/solver/duffing.hpp"
 #include "tests/support/curves.hpp"
@@ -422,6 +423,73 @@ TEST(TraceLinear, HasTheLimitsOfTheContact) {
       EXPECT_LT(point.energy_imbalance, 1e-10);
       EXPECT_EQ(point.report.stick_share, share);
     }
+  }
+}
+
+/// Five modes, two of them close, a spring between them and an output that sees all.
+Scene spring_scene() {
+  Scene scene;
+  scene.natural_frequency = (Eigen::VectorXd(5) << 1.0, 1.7, 1.72, 2.6, 9.0).finished();
+  scene.damping_ratio = (Eigen::VectorXd(5) << 0.01, 0.002, 0.004, 0.001, 0.02).finished();
+  scene.excitation = Harmonics(2, 5);
+  scene.excitation.rows().row(1) << 1.0, 0.5, -0.7, 0.3, 2.0;
+  scene.excitation.rows().row(2) << 0.2, 0.1, 0.4, -0.3, 0.0;
+  scene.excitation.rows().row(3) << 0.3, 0.0, 0.1, 0.2, 0.0;
+  scene.output = (Eigen::VectorXd(5) << 1.0, 0.6, 0.9, -0.4, 0.2).finished();
+  const Eigen::VectorXd shape = (Eigen::VectorXd(5) << 0.3, -0.5, 0.2, 0.8, 1.0).finished();
+  scene.contact = std::make_unique<LinearForce>(3.0 * shape * shape.transpose(),
+                                                contact::CycleReport{1.0, 0.0, 0.0});
+  return scene;
+}
+
+// Continuation walks the same spring as if it were none.
+TEST(TraceLinear, SolvesOnceAFrequencyAndHasThePeaksOfAWalk) {
+  const Scene scene = spring_scene();
+  for (const auto& [begin, end] : {std::pair(0.4, 4.0), std::pair(4.0, 0.4)}) {
+    ContinuationOptions options = frequency_range(begin, end);
+    options.n_harmonics = 2;
+    const ResponseCurve curve = trace_linear(scene, LinearLimit::stuck, options);
+    const ResponseCurve walked = CurveTracer(scene, options, {}).run();
+    ASSERT_TRUE(curve.complete && walked.complete) << curve.message << walked.message;
+    EXPECT_EQ(curve.iterations, 0);
+    EXPECT_GT(walked.iterations, std::ssize(walked.points));
+    EXPECT_EQ(curve.points.front().frequency, begin);
+    EXPECT_EQ(curve.points.back().frequency, end);
+    for (const ResponsePoint& point : curve.points) {
+      EXPECT_LT(point.residual, 1e-13);
+      EXPECT_EQ(point.stability, Stability::stable);
+      EXPECT_EQ(point.determinant_sign, 1.0);
+    }
+    const auto peaks = marked(curve, PointMark::peak);
+    const auto expected = marked(walked, PointMark::peak);
+    ASSERT_EQ(peaks.size(), expected.size());
+    ASSERT_GE(peaks.size(), 6U);  // those of the second harmonic as well
+    for (std::size_t i = 0; i < peaks.size(); ++i) {
+      EXPECT_NEAR(peaks[i].frequency, expected[i].frequency, 1e-10 * peaks[i].frequency);
+      EXPECT_NEAR(peaks[i].amplitude, expected[i].amplitude, 1e-12 * peaks[i].amplitude);
+    }
+  }
+}
+
+TEST(TraceLinear, HasALineThatIsNearTheCurveBetweenItsPoints) {
+  const Scene scene = spring_scene();
+  ContinuationOptions options = frequency_range(0.4, 4.0);
+  options.n_harmonics = 2;
+  const ResponseCurve curve = trace_linear(scene, LinearLimit::stuck, options);
+  const double highest = std::ranges::max(curve.points, {}, &ResponsePoint::amplitude).amplitude;
+  for (std::size_t i = 1; i < curve.points.size(); ++i) {
+    const ResponsePoint& a = curve.points[i - 1];
+    const ResponsePoint& b = curve.points[i];
+    const double middle = 0.5 * (a.frequency + b.frequency);
+    const ResponseCurve there = trace_linear(scene, LinearLimit::stuck, [&] {
+      ContinuationOptions one = options;
+      one.frequency_begin = one.frequency_end = middle;
+      return one;
+    }());
+    ASSERT_EQ(there.points.size(), 1U);
+    EXPECT_EQ(there.iterations, 0);
+    // h²/8 of a step of a fifth of the half width, at most.
+    EXPECT_NEAR(there.points[0].amplitude, 0.5 * (a.amplitude + b.amplitude), 0.01 * highest);
   }
 }
 

@@ -177,6 +177,19 @@ TEST(CertifiedCurve, IsTheNonlinearOneWithoutASingleContactEvaluation) {
   }
 }
 
+TEST(CertifiedCurve, NeverEntersNewtonsMethod) {
+  const Scene scene = rubbing(1e3);
+  for (const auto& [begin, end] : {std::pair(0.5, 3.0), std::pair(1.5, 1.5)}) {
+    ContinuationOptions options = frequency_range(begin, end);
+    options.n_harmonics = 5;
+    const ResponseCurve curve = trace_response(scene, options);
+    ASSERT_TRUE(curve.complete) << curve.message;
+    EXPECT_NE(curve.certificate.find("stuck"), std::string::npos) << curve.certificate;
+    EXPECT_EQ(curve.iterations, 0);
+    EXPECT_EQ(curve.contact_evaluations, 0);
+  }
+}
+
 TEST(CertifiedCurve, IsStoppedByItsObserver) {
   int seen = 0;
   const ResponseCurve curve = trace_response(rubbing(1e6), frequency_range(0.5, 3.0),
