@@ -59,6 +59,8 @@ std::string describe(const std::string& curve, const solver::ResponsePoint& poin
   return text;
 }
 
+constexpr double first_guess = 0.01;  // before this much of a stage is done a forecast is noise
+
 }  // namespace
 
 Progress::Progress(std::ostream& out, bool terminal, Verbosity verbosity)
@@ -110,6 +112,7 @@ void Progress::stage(const std::string& name) {
   stage_begin_ = Clock::now();
   expected_ = 0.0;
   has_points_ = false;
+  fraction_ = 0.0;
   gauge_.emplace();
   log(Level::info, "stage " + name);
   if (terminal_) draw_live(name + " ...");
@@ -131,6 +134,9 @@ void Progress::start_clock() {
 
 std::string Progress::time_text(double elapsed) const {
   std::string text = fmt::format("{}  {}", stage_, duration_text(elapsed));
+  if (fraction_ > first_guess) {
+    return text + ", some " + duration_text(elapsed * (1.0 - fraction_) / fraction_) + " left";
+  }
   if (expected_ == 0.0) return text;
   if (elapsed < expected_) return text + ", some " + duration_text(expected_ - elapsed) + " left";
   return text + ", where " + duration_text(expected_) + " were expected";
@@ -141,7 +147,7 @@ void Progress::tell_time(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
   while (!stop.stop_requested()) {
     stopped_.wait_for(lock, stop, tick, [] { return false; });
-    const std::chrono::seconds silence{terminal_ && !has_points_ ? 1 : 10};
+    const std::chrono::seconds silence{!terminal_ ? 10 : has_points_ ? 3 : 1};
     const Clock::time_point now = Clock::now();
     if (stage_.empty() || now - std::max(last_drawn_, stage_begin_) < silence) continue;
     last_drawn_ = now;
@@ -159,6 +165,7 @@ void Progress::point(const std::string& curve, const solver::ResponsePoint& poin
   const std::lock_guard lock(mutex_);
   append_history(curve, point);
   has_points_ = true;
+  fraction_ = fraction;
   const std::string text = describe(curve, point);
   if (verbosity_ == Verbosity::verbose) return print_line("  " + text);
   constexpr std::chrono::milliseconds redraw_interval{100};  // for the eye
@@ -168,7 +175,6 @@ void Progress::point(const std::string& curve, const solver::ResponsePoint& poin
   last_drawn_ = now;
   const double elapsed = Seconds(now - stage_begin_).count();
   std::string line = fmt::format("{}  {}", stage_, text);
-  constexpr double first_guess = 0.01;  // before this much is done a forecast is noise
   if (fraction > first_guess) {
     line += "  " + duration_text(elapsed * (1.0 - fraction) / fraction) + " left";
   }

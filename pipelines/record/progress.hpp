@@ -101,6 +101,7 @@ class Progress {
   std::string stage_;
   double expected_ = 0.0;    ///< of the stage [s]; 0: not known
   bool has_points_ = false;  ///< which tell more
+  double fraction_ = 0.0;    ///< of the stage, done at the last of them
   std::optional<MemoryGauge> gauge_;
   std::vector<StageRecord> stages_;
   std::vector<std::string> warnings_;

@@ -58,6 +58,17 @@ TEST(Progress, AStageThatSaysNothingTellsWhatIsLeft) {
   EXPECT_TRUE(std::regex_search(out.str(), over)) << out.str();
 }
 
+TEST(Progress, ACurveWhosePointsTakeLongTellsWhatIsLeft) {
+  std::ostringstream out;
+  Progress progress(out, true, Verbosity::normal);
+  progress.stage("curves");
+  progress.point("preload_6", {}, 0.25);
+  std::this_thread::sleep_for(std::chrono::milliseconds(3700));
+  progress.finish();
+  EXPECT_TRUE(std::regex_search(out.str(), std::regex("curves  [34] s, some (9|1[0-2]) s left")))
+      << out.str();
+}
+
 TEST(Progress, HistoryGrowsWithEveryPoint) {
   const synthetic::Folder folder("progress_history");
   std::ostringstream out;
