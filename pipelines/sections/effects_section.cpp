@@ -213,7 +213,8 @@ constexpr std::array contradictions{
     Contradiction{"moments", "on", lacks_area,
                   "needs an area: cells and size in contact.points, or p and r of modal.points"},
     Contradiction{"residual", "on", lacks_residual,
-                  "cannot be on: modal scenes and modes.residual = \"none\" have no residual"},
+                  "needs modes.residual \"stiffness\" or \"attachment\": modal scenes and \"none\" "
+                  "have no residual"},
     Contradiction{"residual", "off", is_rigid,
                   "contradicts contact.normal_stiffness or tangential_stiffness = \"rigid\", which "
                   "is the residual stiffness alone: give one in N/m^3"},
