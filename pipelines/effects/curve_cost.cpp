@@ -31,6 +31,7 @@ constexpr double of_a_start = 20.0;
 constexpr double of_error_rows =
     300.0;  // of a curve: five richer models, one of four times the points
 constexpr double of_error_rows_of_chosen = 450.0;  // peaks have more harmonics than their curves
+constexpr double rows_of_a_linear_curve = 0.2;     // of others: no point is awake
 constexpr double curves_of_a_search = 30.0;        // for a best value, as many evaluations
 constexpr double searches_of_a_bracket = 4.0;
 constexpr double frequencies_of_a_search = 14.0;  // of a range (solver/curve/branch_search.hpp)
@@ -293,8 +294,9 @@ ResponseSeconds response_seconds(const SceneDescription& scene, const CurveEffec
     const double evaluations = more * (one                        ? of_one_frequency
                                        : effects.chosen_harmonics ? of_a_choosing_curve
                                                                   : of_a_curve);
+    const double n_linear = effects.linear_curves;
     seconds.curves =
-        n_curves(scene) *
+        (n_curves(scene) - n_linear) *
         (std::max(0.5 * evaluations * evaluation,
                   evaluations * evaluation + (one ? 1.0 : points_of_a_curve) * stability) +
          check_seconds(scene, effects, size));
@@ -303,7 +305,8 @@ ResponseSeconds response_seconds(const SceneDescription& scene, const CurveEffec
       const double of_rows = effects.chosen_harmonics ? of_error_rows_of_chosen : of_error_rows;
       const double rows = meshed ? of_rows * evaluation : 0.0;
       const double check = meshed ? of_an_effect_on_a_mesh : of_an_effect;
-      seconds.errors = n_curves(scene) * (rows + check * evaluations_with(scene, effects));
+      const double n_with_rows = n_curves(scene) - (1.0 - rows_of_a_linear_curve) * n_linear;
+      seconds.errors = n_with_rows * (rows + check * evaluations_with(scene, effects));
     }
   }
   if (scene.response->optimum) {

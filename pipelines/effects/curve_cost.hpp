@@ -18,6 +18,7 @@ struct CurveEffects {
   bool areas = true;     ///< contact acts on areas where the scene has any; else on points
   bool residual = true;  ///< the modes have those shapes for omitted ones that the scene has
   bool stability = true;
+  int linear_curves = 0;  ///< that cannot slip, open or close, as far as is known
 };
 
 /// Its contact has displacements along r.

@@ -292,6 +292,23 @@ std::optional<ContactReach> contact_reach(const ReducedModel& model,
   return most;
 }
 
+int n_linear_curves(const ReducedModel& model, const SceneDescription& scene) {
+  const bool solved = setting_of(scene, "nonlinearity") == "on" || is_rough(scene);
+  if (!scene.response || model.patches.empty() || solved) return 0;
+  const std::vector<LimitMotion> motions = limit_motions(model, scene);
+  return static_cast<int>(std::ranges::count_if(curve_requests(scene), [&](const auto& request) {
+    const auto asked = load_of(request, model);
+    const auto* load = std::get_if<double>(&asked);
+    try {
+      return load != nullptr && reach_under(model, motions, *load).slip < 1.0;
+    } catch (const contact::LoadError&) {  // refused where it is solved for
+      return false;
+    } catch (const RefusedError&) {
+      return false;
+    }
+  }));
+}
+
 double normal_energy_share(const ReducedModel& model, const SceneDescription& scene) {
   double most = 0.0;
   const Limit stuck = limits_of(model)[1];

@@ -38,6 +38,10 @@ struct ContactReach {
 [[nodiscard]] std::optional<ContactReach> contact_reach(const ReducedModel& model,
                                                         const SceneDescription& scene);
 
+/// Of the curves under a load, those whose points stay below 1 by `slip`: the run will prove them
+/// linear, unless effects.nonlinearity is "on".
+[[nodiscard]] int n_linear_curves(const ReducedModel& model, const SceneDescription& scene);
+
 /// Of the strain energy of the stuck limit, in the springs along the normal:
 /// the largest in the range.
 [[nodiscard]] double normal_energy_share(const ReducedModel& model, const SceneDescription& scene);

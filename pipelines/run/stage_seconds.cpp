@@ -13,13 +13,16 @@
 #include "pipelines/description/element_count.hpp"
 #include "pipelines/effects/curve_cost.hpp"
 #include "pipelines/effects/effect_choice.hpp"
+#include "pipelines/effects/effect_indicators.hpp"
 #include "pipelines/structure/solver_time.hpp"
 
 namespace microslip::pipelines {
 namespace {
 
 ResponseSeconds seconds_of(const ReducedModel& model, const SceneDescription& scene) {
-  return response_seconds(scene, curve_effects(scene, model.effects.second_direction));
+  CurveEffects effects = curve_effects(scene, model.effects.second_direction);
+  effects.linear_curves = n_linear_curves(model, scene);
+  return response_seconds(scene, effects);
 }
 
 }  // namespace

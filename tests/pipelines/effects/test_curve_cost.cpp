@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "pipelines/effects/effect_indicators.hpp"
+#include "pipelines/effects/model_family.hpp"
 #include "pipelines/scene/scene_file.hpp"
 
 namespace microslip::pipelines::test_curve_cost {
@@ -39,6 +41,21 @@ ResponseSeconds seconds(const Overrides& overrides, bool along_r = false) {
 TEST(CurveCost, LinearLimitsCostNothing) {
   EXPECT_EQ(seconds({"response.preload=[\"free\", \"stuck\"]"}).curves, 0.0);
   EXPECT_DOUBLE_EQ(seconds({}).curves, 2.0 * seconds({"response.preload=[10]"}).curves);
+}
+
+TEST(CurveCost, OfLoadsThatHoldWhateverTheLimitsDoIsNothing) {
+  const auto of = [](const Overrides& overrides) {
+    const SceneDescription scene = parse_scene(chain, "scene.toml", "/nowhere", overrides);
+    std::vector<std::string> warnings;
+    CurveEffects effects = curve_effects(scene, false);
+    effects.linear_curves = n_linear_curves(model_of(scene, nullptr, warnings), scene);
+    return response_seconds(scene, effects).curves;
+  };
+  EXPECT_EQ(of({"response.preload=[1e6]"}), 0.0);
+  EXPECT_GT(of({"response.preload=[10]"}), 0.0);
+  EXPECT_DOUBLE_EQ(of({"response.preload=[\"free\", 10, 1e6, 2e6]"}),
+                   of({"response.preload=[10]"}));
+  EXPECT_GT(of({"response.preload=[1e6]", "effects.nonlinearity=on"}), 0.0);
 }
 
 TEST(CurveCost, MoreEffectsCostMore) {
