@@ -58,6 +58,15 @@ double DrivenResonances::distance(double omega) const {
   return ((frequency - omega).square() + half_width.square()).sqrt().minCoeff();
 }
 
+std::optional<double> DrivenResonances::first_within(double from, double to) const {
+  std::optional<double> first;
+  for (const double one : frequency) {
+    const bool is_between = (one - from) * (to - one) > 0.0;
+    if (is_between && (!first || std::abs(one - from) < std::abs(*first - from))) first = one;
+  }
+  return first;
+}
+
 DrivenResonances driven_resonances(const Scene& scene, const Eigen::MatrixXd& stiffness,
                                    const std::vector<int>& orders) {
   const auto modes = modes_with(scene, stiffness);

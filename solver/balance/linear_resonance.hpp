@@ -25,6 +25,8 @@ struct DrivenResonances {
 
   /// Distance in the complex plane of frequencies to the nearest [rad/s]; ∞: there is none.
   [[nodiscard]] double distance(double omega) const;
+  /// The first on the way from one frequency to another, neither of them. Empty: there is none.
+  [[nodiscard]] std::optional<double> first_within(double from, double to) const;
 };
 
 /// @param stiffness  as of unbounded_resonance(), symmetric.

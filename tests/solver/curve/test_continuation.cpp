@@ -471,6 +471,53 @@ TEST(TraceLinear, SolvesOnceAFrequencyAndHasThePeaksOfAWalk) {
   }
 }
 
+// The half width is 1e-14 of the range: neither steps nor the slope between two of them see it.
+TEST(TraceLinear, FindsANeedleInAWideRange) {
+  for (const double damping : {1e-2, 1e-6, 1e-8, 1e-11, 1e-12}) {
+    Scene scene;
+    scene.natural_frequency = Eigen::Vector2d(1.0, 1.3);
+    scene.damping_ratio = Eigen::Vector2d::Constant(damping);
+    scene.excitation = Harmonics(1, 2);
+    scene.excitation.rows().row(1) << 1.0, 0.5;
+    scene.output = Eigen::Vector2d(1.0, 1.0);
+    for (const auto& [begin, end] :
+         {std::pair(0.5, 2.0), std::pair(0.05, 100.0), std::pair(100.0, 0.05)}) {
+      const ResponseCurve curve =
+          trace_linear(scene, LinearLimit::free, frequency_range(begin, end));
+      const auto peaks = marked(curve, PointMark::peak);
+      ASSERT_TRUE(curve.complete);
+      ASSERT_EQ(peaks.size(), 2U) << damping << " from " << begin;
+      const auto& first = begin < end ? peaks[0] : peaks[1];
+      const auto& second = begin < end ? peaks[1] : peaks[0];
+      const double others = 2.0 * damping;  // share of the other mode, and of the height
+      EXPECT_NEAR(first.amplitude * 2.0 * damping, 1.0, others + 1e-4) << damping;
+      EXPECT_NEAR(second.amplitude * 2.0 * damping * 1.69, 0.5, others + 1e-4) << damping;
+    }
+  }
+}
+
+// Where modes cancel a plot with logarithmic axes shows a notch, not a straight line across.
+TEST(TraceLinear, IsDenseWhereModesCancel) {
+  Scene scene;  // 1 / (1 − ω²) + 1 / (4 − ω²) vanishes at ω² = 2.5
+  scene.natural_frequency = Eigen::Vector2d(1.0, 2.0);
+  scene.damping_ratio = Eigen::Vector2d::Constant(1e-5);
+  scene.excitation = Harmonics(1, 2);
+  scene.excitation.rows().row(1) << 1.0, 1.0;
+  scene.output = Eigen::Vector2d(1.0, 1.0);
+  constexpr double begin = 1.1, end = 1.9;
+  const ResponseCurve curve = trace_linear(scene, LinearLimit::free, frequency_range(begin, end));
+  const ResponsePoint& least =
+      *std::ranges::min_element(curve.points, {}, &ResponsePoint::amplitude);
+  EXPECT_NEAR(least.frequency, std::sqrt(2.5), 1e-3);
+  EXPECT_LT(least.amplitude, 1e-2);  // 5.7 at the ends
+  for (std::size_t i = 1; i < curve.points.size(); ++i) {
+    const ResponsePoint& a = curve.points[i - 1];
+    const ResponsePoint& b = curve.points[i];
+    if (b.frequency - a.frequency < 1.01e-3 * (end - begin)) continue;  // less is not shown
+    EXPECT_LT(std::abs(std::log(b.amplitude / a.amplitude)), 0.5) << a.frequency;
+  }
+}
+
 TEST(TraceLinear, HasALineThatIsNearTheCurveBetweenItsPoints) {
   const Scene scene = spring_scene();
   ContinuationOptions options = frequency_range(0.4, 4.0);
