@@ -140,7 +140,7 @@ TEST(ExtrapolatedModes, RatesAreThoseOfSharpEdgesButWhereFieldsAreSmooth) {
   EXPECT_DOUBLE_EQ(observed_ratio(294.456, 295.666, 299.182), of_edges);
   EXPECT_DOUBLE_EQ(observed_ratio(1.0, 1.0, 1.0), of_edges);
   EXPECT_DOUBLE_EQ(observed_ratio(1.0, 2.0, 9.0), 7.0);
-  EXPECT_DOUBLE_EQ(observed_ratio(1.0, 2.0, 100.0), 16.0);
+  EXPECT_DOUBLE_EQ(observed_ratio(1.0, 2.0, 100.0), of_edges) << "an accident";
 }
 
 }  // namespace
