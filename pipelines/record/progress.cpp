@@ -134,7 +134,7 @@ void Progress::start_clock() {
 
 std::string Progress::time_text(double elapsed) const {
   std::string text = fmt::format("{}  {}", stage_, duration_text(elapsed));
-  if (fraction_ > first_guess) {
+  if (fraction_ > first_guess && fraction_ < 1.0) {
     return text + ", some " + duration_text(elapsed * (1.0 - fraction_) / fraction_) + " left";
   }
   if (expected_ == 0.0) return text;

@@ -29,6 +29,7 @@
 #include "pipelines/run/draw_scene.hpp"
 #include "pipelines/run/questions.hpp"
 #include "pipelines/run/stage_seconds.hpp"
+#include "pipelines/structure/extrapolated_modes.hpp"
 #include "pipelines/structure/memory_before_mesh.hpp"
 #include "pipelines/structure/solver_time.hpp"
 #include "pipelines/structure/static_preload.hpp"
@@ -36,6 +37,7 @@
 #include "pipelines/system/interrupt.hpp"
 #include "pipelines/system/scene_error.hpp"
 #include "pipelines/system/temporary_folder.hpp"
+#include "pipelines/text/rounded.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -64,6 +66,9 @@ Forecast forecast_of(const mesh::Mesh& mesh, const SceneDescription& scene,
   Forecast forecast;
   forecast.degrees_of_freedom = 3.0 * static_cast<double>(mesh.n_nodes());
   forecast.modes_seconds = mesh_and_modes_seconds(forecast.degrees_of_freedom, scene);
+  if (is_extrapolated(scene)) {
+    forecast.modes_seconds += larger_elements_seconds(forecast.degrees_of_freedom, scene);
+  }
   forecast.solver_memory = solver_memory(mesh, scene.settings.basis.solver);
   forecast.memory_gb = memory_before_modes + 1e-3 * forecast.solver_memory->needed_mb();
   add_curves(scene, model, forecast);
@@ -83,6 +88,16 @@ std::string text_of(const ResponseSeconds& seconds) {
                         seconds.bracket);
   }
   return text;
+}
+
+/// What a round of refinement takes depends on errors that only the curves tell.
+void describe(const AccuracyRequest& accuracy, std::ostream& out) {
+  if (!(accuracy.tolerance > 0.0)) return;
+  fmt::print(out,
+             "asked for {}: what refining takes beyond that is told by `run` after the first "
+             "curves{}\n",
+             percent_text(accuracy.tolerance),
+             std::isfinite(accuracy.budget) ? "" : "; --budget 60s would end it in time");
 }
 
 void describe(const Forecast& forecast, bool has_curves, std::ostream& out) {
@@ -271,6 +286,7 @@ std::optional<ReducedModel> check_meshed(const SceneDescription& scene,
   }
   result.forecast = forecast_of(mesh, scene, model ? &*model : nullptr);
   describe(result.forecast, scene.response.has_value(), out);
+  describe(scene.accuracy, out);
   if (given_modes(scene) == nullptr) {
     if (std::string text = memory_warning(*result.forecast.solver_memory); !text.empty()) {
       result.warnings.push_back(std::move(text));
@@ -322,6 +338,7 @@ CheckResult check_study(const SceneDescription& scene, const std::filesystem::pa
     result.forecast.memory_gb = memory_without_a_mesh;
     add_curves(scene, &model, result.forecast);
     describe(result.forecast, scene.response.has_value(), out);
+    describe(scene.accuracy, out);
   } else {
     modes_are_known = check_meshed(scene, picture, result, out).has_value();
   }

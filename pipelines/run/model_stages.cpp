@@ -54,8 +54,9 @@ StructurePointer solved_structure(const SceneDescription& scene, RunRecord& reco
   ask(record.progress(), scene, mesh);
   record.stage("modes");
   if (given_modes(scene) == nullptr) {
-    record.progress().expect(
-        modes_seconds(3.0 * static_cast<double>(mesh.n_nodes()), scene.settings.basis));
+    const double n_dofs = 3.0 * static_cast<double>(mesh.n_nodes());
+    const double larger = is_extrapolated(scene) ? larger_elements_seconds(n_dofs, scene) : 0.0;
+    record.progress().expect(modes_seconds(n_dofs, scene.settings.basis) + larger);
   }
   std::optional<StructureModes> modes = record.finished_modes();
   if (!modes) modes = solve_structure(mesh, scene);

@@ -14,6 +14,7 @@
 #include "pipelines/effects/curve_cost.hpp"
 #include "pipelines/effects/effect_choice.hpp"
 #include "pipelines/effects/effect_indicators.hpp"
+#include "pipelines/structure/extrapolated_modes.hpp"
 #include "pipelines/structure/solver_time.hpp"
 
 namespace microslip::pipelines {
@@ -30,6 +31,7 @@ ResponseSeconds seconds_of(const ReducedModel& model, const SceneDescription& sc
 double coarser_meshes_seconds(double degrees_of_freedom, const SceneDescription& scene) {
   if (!scene.accuracy.error_budget || !element_size_of(scene)) return 0.0;
   if (in_time(scene) || only_limits(scene)) return 0.0;
+  if (is_extrapolated(scene)) return 0.0;  // they are solved with the modes
   return larger_elements_seconds(degrees_of_freedom, scene);
 }
 
