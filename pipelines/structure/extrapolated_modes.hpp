@@ -43,9 +43,9 @@ struct CoarserMeshes {
 [[nodiscard]] SolvedStructure on_larger_elements(const SceneDescription& scene, double factor,
                                                  Eigen::Index n_modes);
 
-/// 2^p = (ω_4h − ω_2h) / (ω_2h − ω_h) of three meshes, between 2^2.5 and 16 (smooth fields, quadratic
-/// elements). Else it is that of re-entrant edges, h^1.09: meshes show the rate of the coarsest
-/// then, or an accident, which is not that of what is left on the finest.
+/// 2^p = (ω_4h − ω_2h) / (ω_2h − ω_h) of three meshes, between 2^2.5 and 16 (smooth fields,
+/// quadratic elements). Else it is that of re-entrant edges, h^1.09: meshes show the rate of the
+/// coarsest then, or an accident, which is not that of what is left on the finest.
 [[nodiscard]] double observed_ratio(double fine, double coarse, double coarsest);
 
 /// Extrapolates the modes of a structure and keeps what they are extrapolated from.
