@@ -9,7 +9,7 @@ namespace microslip::pipelines {
 namespace {
 
 constexpr int several = 9;    // of the default blade: peaks right to some per cent
-constexpr double half = 0.5;  // of the budget: what is left refines what is told
+constexpr double most = 0.8;  // of the budget: a curve that lacks time falls back to one alone
 
 double seconds_of_curves(const SceneDescription& scene) {
   const bool along_r = scene.settings.second_direction == Discretisation::Choice::on;
@@ -25,7 +25,7 @@ SceneDescription first_settings(SceneDescription scene) {
   if (!by_time || !scene.settings.harmonics.chosen()) return scene;
   if (only_limits(scene)) return scene;
   scene.settings.harmonics = {.highest = several, .or_one = true};
-  if (!(seconds_of_curves(scene) < half * budget)) scene.settings.harmonics = {.highest = 1};
+  if (!(seconds_of_curves(scene) < most * budget)) scene.settings.harmonics = {.highest = 1};
   return scene;
 }
 
