@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include "contact/numerics/bracketed_root.hpp"
+#include "contact/bracketed_root.hpp"
 
 namespace microslip::contact {
 namespace {

@@ -3,8 +3,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "contact/bracketed_root.hpp"
 #include "contact/dense.hpp"
-#include "contact/numerics/bracketed_root.hpp"
 
 namespace microslip::contact {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <complex>
 
-#include "contact/numerics/bracketed_root.hpp"
+#include "contact/bracketed_root.hpp"
 #include "contact/numerics/sign_changes.hpp"
 #include "contact/phase.hpp"
 

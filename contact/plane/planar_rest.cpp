@@ -7,7 +7,7 @@
 
 #include <Eigen/LU>
 
-#include "contact/numerics/bracketed_root.hpp"
+#include "contact/bracketed_root.hpp"
 
 namespace microslip::contact {
 namespace {

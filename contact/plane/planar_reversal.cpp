@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "contact/numerics/bracketed_root.hpp"
+#include "contact/bracketed_root.hpp"
 
 namespace microslip::contact {
 namespace {

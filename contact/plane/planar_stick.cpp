@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "contact/numerics/bracketed_root.hpp"
+#include "contact/bracketed_root.hpp"
 
 namespace microslip::contact {
 namespace {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "contact/dense.hpp"
 
@@ -67,21 +68,22 @@ std::optional<double> DrivenResonances::first_within(double from, double to) con
   return first;
 }
 
-DrivenResonances driven_resonances(const Scene& scene, const Eigen::MatrixXd& stiffness,
-                                   const std::vector<int>& orders) {
+DrivenResonances driven_resonances(const Scene& scene, const Eigen::MatrixXd& stiffness) {
   const auto modes = modes_with(scene, stiffness);
   if (!modes) return {};
-  const Eigen::Index n = modes->values.size();
-  const auto n_orders = static_cast<Eigen::Index>(orders.size());
-  DrivenResonances driven{Eigen::ArrayXd(n * n_orders), Eigen::ArrayXd(n * n_orders)};
-  for (Eigen::Index k = 0; k < n_orders; ++k) {
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const int order = orders[static_cast<std::size_t>(k)];
-      driven.frequency[k * n + i] = std::sqrt(std::max(0.0, modes->values[i])) / order;
-      driven.half_width[k * n + i] = decay_of(scene, modes->vectors.col(i)) / order;
+  std::vector<double> frequencies, half_widths;
+  for (Eigen::Index i = 0; i < modes->values.size(); ++i) {
+    const Eigen::VectorXd shape = modes->vectors.col(i);
+    for (int order = 1; order <= scene.excitation.n_harmonics(); ++order) {
+      if (excited_share(scene.excitation, order, shape) <= negligible) continue;
+      frequencies.push_back(std::sqrt(std::max(0.0, modes->values[i])) / order);
+      half_widths.push_back(decay_of(scene, shape) / order);
     }
   }
-  return driven;
+  const auto array = [](const std::vector<double>& all) {
+    return Eigen::Map<const Eigen::ArrayXd>(all.data(), static_cast<Eigen::Index>(all.size()));
+  };
+  return {array(frequencies), array(half_widths)};
 }
 
 }  // namespace microslip::solver

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include <Eigen/Core>
 
@@ -29,10 +28,9 @@ struct DrivenResonances {
   [[nodiscard]] std::optional<double> first_within(double from, double to) const;
 };
 
+/// Those of shapes that a harmonic of the excitation drives.
 /// @param stiffness  as of unbounded_resonance(), symmetric.
-/// @param orders     of the harmonics that are driven.
 [[nodiscard]] DrivenResonances driven_resonances(const Scene& scene,
-                                                 const Eigen::MatrixXd& stiffness,
-                                                 const std::vector<int>& orders);
+                                                 const Eigen::MatrixXd& stiffness);
 
 }  // namespace microslip::solver

@@ -44,7 +44,7 @@ class CurveTracer {
   [[nodiscard]] Scaling scaling_at(const NewtonResult& at);
   /// Of a linear scene, with its residual.
   [[nodiscard]] NewtonResult linear_response(double frequency);
-  [[nodiscard]] double linear_peak(const ResponsePoint& before, const ResponsePoint& now);
+  [[nodiscard]] bool add_peak_before(ResponsePoint& now);
   [[nodiscard]] StabilityReport stability_at(const NewtonResult& at);
   [[nodiscard]] StabilityReport judged(const NewtonResult& at, PointMark mark);
   [[nodiscard]] ResponsePoint certified(const NewtonResult& at, PointMark mark);

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
+#include "contact/bracketed_root.hpp"
 #include "solver/balance/condensed.hpp"
 #include "solver/balance/linear_resonance.hpp"
 #include "solver/branch/start_point.hpp"
@@ -53,37 +53,25 @@ NewtonResult CurveTracer::linear_response(double frequency) {
   }
 }
 
-/// Where the slope of the amplitude vanishes, to rounding: regula falsi, the weight of an end that
-/// stays halved (Illinois), and the middle where that does not halve the bracket: of light damping
-/// the slope is a needle in it.
-double CurveTracer::linear_peak(const ResponsePoint& before, const ResponsePoint& now) {
-  double low = before.frequency, high = now.frequency;
-  double at_low = slope_of(before), at_high = slope_of(now);
-  constexpr int most = 200;  // every second one halves the bracket
-  bool is_slow = false;
-  for (int i = 0; i < most && at_high != 0.0; ++i) {
-    const double width = std::abs(high - low);
-    const double next =
-        is_slow ? std::midpoint(low, high) : high - at_high * ((high - low) / (at_high - at_low));
-    if (next == low) return low;
-    if (next == high) break;
-    const double there = slope_of(certified(linear_response(next), PointMark::peak));
-    if ((there > 0.0) == (at_high > 0.0)) {
-      at_low *= 0.5;
-    } else {
-      low = high;
-      at_low = at_high;
-    }
-    high = next;
-    at_high = there;
-    is_slow = !is_slow && std::abs(high - low) > 0.5 * width;
+/// Adds the peak between the last row and the next, or marks the one of them that it is; of light
+/// damping the slope is a needle between them. @return false: the observer asked to stop.
+bool CurveTracer::add_peak_before(ResponsePoint& now) {
+  if (curve_.points.empty()) return true;
+  const ResponsePoint& before = curve_.points.back();
+  const double rise = slope_of(before), fall = slope_of(now);
+  if (!(rise * forward() >= 0.0 && fall * forward() < 0.0)) return true;
+  const double peak = contact::bracketed_root(
+      [&](double there) { return slope_of(certified(linear_response(there), PointMark::peak)); },
+      before.frequency, now.frequency, rise, fall);
+  if (peak != before.frequency && peak != now.frequency) {
+    return add(linear_response(peak), PointMark::peak);
   }
-  return high;
+  (peak == now.frequency ? now : curve_.points.back()).mark = PointMark::peak;
+  return true;
 }
 
 ResponseCurve CurveTracer::run_linear() {
-  const DrivenResonances resonances =
-      driven_resonances(scene_, balance_->stuck_stiffness(), balance_->set().orders());
+  const DrivenResonances resonances = driven_resonances(scene_, balance_->stuck_stiffness());
   const double end = options_.frequency_end;
   double frequency = options_.frequency_begin;
   for (bool goes_on = true;
@@ -97,21 +85,8 @@ ResponseCurve CurveTracer::run_linear() {
       return finished();
     }
     ResponsePoint point = certified(at, PointMark::none);
-    if (!curve_.points.empty()) {
-      const ResponsePoint& before = curve_.points.back();
-      if (slope_of(before) * forward() >= 0.0 && slope_of(point) * forward() < 0.0) {
-        const double peak = slope_of(before) == 0.0 ? before.frequency : linear_peak(before, point);
-        if (peak == before.frequency) {
-          curve_.points.back().mark = PointMark::peak;
-        } else if (peak == point.frequency) {
-          point.mark = PointMark::peak;
-        } else {
-          goes_on = add(linear_response(peak), PointMark::peak);
-        }
-      }
-    }
     const double by_amplitude = step_by_amplitude(point, range_);
-    goes_on = goes_on && add(std::move(point));
+    goes_on = add_peak_before(point) && add(std::move(point));
     if (!goes_on) stop(Diagnosis::interrupted, at_hertz("stopped", frequency));
     if (frequency == end) {
       curve_.complete = goes_on;

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "contact/numerics/bracketed_root.hpp"
+#include "contact/bracketed_root.hpp"
 
 namespace microslip::contact::test_planar_slip {
 namespace {
