@@ -204,6 +204,18 @@ Changes without_peak(const Comparison& of, const Range& range) {
   return at_end(resonance_change(of.own, of.with, range), change);
 }
 
+/// The amplitude of another model at the frequency of a point. @return empty: none is near by.
+std::optional<solver::PeakOfBoth> at_its_frequency(const solver::Scene& own,
+                                                   solver::ContinuationOptions options,
+                                                   const solver::ResponsePoint& point,
+                                                   const solver::OtherModel& with) {
+  options.frequency_begin = options.frequency_end = point.frequency;
+  solver::ResponseCurve alone;
+  alone.points = {point};
+  alone.points.front().mark = solver::PointMark::none;  // of a peak the frequency would move
+  return solver::peak_elsewhere(own, options, alone, {with.scene, with.embedding, 1.0});
+}
+
 /// What having an effect makes of a lower peak that is not found with it.
 class LostPeaks {
  public:
@@ -214,7 +226,8 @@ class LostPeaks {
   /// the smaller change counts. With neither, all that the peak has.
   std::optional<solver::PeakOfBoth> found(const solver::ResponseCurve& peak) {
     constexpr double shoulder = 0.1;  // of its amplitude
-    std::optional<solver::PeakOfBoth> there = at_its_frequency(peak);
+    std::optional<solver::PeakOfBoth> there =
+        at_its_frequency(of_.own, of_.options, *highest_peak(peak), of_.with);
     if (there && change_of(*there) < shoulder * there->amplitude) return there;
     const std::optional<solver::PeakOfBoth> moved = of_whole_curve(*highest_peak(peak));
     return moved && (!there || change_of(*moved) < change_of(*there)) ? moved : there;
@@ -226,16 +239,6 @@ class LostPeaks {
     const double shift = both.other_frequency / both.frequency - 1.0;
     return std::max(std::abs(both.other_amplitude - both.amplitude),
                     std::abs(shift) * both.amplitude);
-  }
-
-  [[nodiscard]] std::optional<solver::PeakOfBoth> at_its_frequency(
-      const solver::ResponseCurve& peak) const {
-    solver::ResponseCurve alone;
-    alone.points = {*highest_peak(peak)};
-    alone.points.front().mark = solver::PointMark::none;  // its frequency stays
-    solver::ContinuationOptions there = of_.options;
-    there.frequency_begin = there.frequency_end = alone.points.front().frequency;
-    return solver::peak_elsewhere(of_.own, there, alone, {of_.with.scene, of_.with.embedding, 1.0});
   }
 
   [[nodiscard]] std::optional<solver::PeakOfBoth> of_whole_curve(const solver::ResponsePoint& own) {
@@ -432,10 +435,7 @@ class SolvedThere {
   }
   /// The same, solved for; none: no solution near by.
   std::optional<double> change(const solver::ResponsePoint& point) {
-    options_.frequency_begin = options_.frequency_end = point.frequency;
-    solver::ResponseCurve alone;
-    alone.points = {point};
-    const auto both = solver::peak_elsewhere(own_, options_, alone, {richer_, embedding_, 1.0});
+    const auto both = at_its_frequency(own_, options_, point, {richer_, embedding_});
     if (!both) return std::nullopt;
     return both->other_amplitude - both->amplitude;
   }
