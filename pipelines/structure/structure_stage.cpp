@@ -43,7 +43,6 @@
 namespace microslip::pipelines {
 namespace {
 
-/// Looks a name of the scene up in the mesh.
 /// The name that may be meant, as a question; "": none is near, or the mesh has that very name.
 std::string similar_name(const mesh::Mesh& mesh, const std::string& name) {
   std::vector<std::string> names = mesh.surface_names();
@@ -54,6 +53,7 @@ std::string similar_name(const mesh::Mesh& mesh, const std::string& name) {
   return near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near);
 }
 
+/// Looks a name of the scene up in the mesh.
 /// @throws SceneError  it is not there: where it was asked for.
 template <typename LookUp>
 void require_name(const mesh::Mesh& mesh, const std::string& place, const std::string& name,
