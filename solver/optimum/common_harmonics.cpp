@@ -15,6 +15,11 @@ namespace {
 constexpr double worth_another_search =
     0.01;  // of an amplitude: a valley is as level over some per cent
 
+void add(PeakWork& sum, const PeakWork& work) {
+  sum.iterations += work.iterations;
+  sum.contact_evaluations += work.contact_evaluations;
+}
+
 /// Those that the highest peaks of the curve at a value need.
 CurveHarmonics chosen_at(const SceneFamily& family, double value, const ContinuationOptions& range,
                          PeakWork& work) {
@@ -27,8 +32,24 @@ CurveHarmonics chosen_at(const SceneFamily& family, double value, const Continua
   };
   const ResponseCurve curve = trace(least);
   CurveHarmonics chosen = choose_harmonics(scene, range, least, curve, trace);
-  work.iterations += curve.iterations + chosen.iterations;
-  work.contact_evaluations += curve.contact_evaluations + chosen.contact_evaluations;
+  add(work, {curve.iterations, curve.contact_evaluations});
+  add(work, {chosen.iterations, chosen.contact_evaluations});
+  return chosen;
+}
+
+/// Those that a peak needs beside the ones it has.
+std::optional<CurveHarmonics> chosen_from(const Scene& scene, const ResponsePoint& peak,
+                                          const ContinuationOptions& range, PeakWork& work) {
+  const HarmonicSet set(peak.orders);
+  HarmonicBalance balance(scene, set);
+  const auto place = local_peak(balance, peak);
+  if (peak.mark != PointMark::peak || !place) return std::nullopt;
+  PeakHarmonicsChoice choice(scene, range);
+  const PeakHarmonics found = choice.choose(set, *place, set);
+  add(work, choice.work());
+  if (!found.peak) return std::nullopt;
+  CurveHarmonics chosen{found.set};
+  chosen.highest = found.richest;
   return chosen;
 }
 
@@ -47,12 +68,15 @@ ContinuationOptions with_common_harmonics(const SceneFamily& family,
 
 std::optional<LackedHarmonics> lacked_harmonics(const SceneFamily& family,
                                                 const PeakOfParameter& best,
+                                                const ResponsePoint* highest,
                                                 const ContinuationOptions& given,
                                                 const ContinuationOptions& range, PeakWork& work) {
   if (!(range.harmonic_tolerance > 0.0)) return std::nullopt;
-  const CurveHarmonics own = chosen_at(family, best.parameter, range, work);
-  const double amplitude = own.highest.amplitude;
   const double same = std::max(range.harmonic_tolerance, worth_another_search);
+  std::optional<CurveHarmonics> near;
+  if (highest != nullptr) near = chosen_from(family(best.parameter), *highest, range, work);
+  const CurveHarmonics own = near ? *near : chosen_at(family, best.parameter, range, work);
+  const double amplitude = own.highest.amplitude;
   const bool agrees = std::abs(best.amplitude - amplitude) <= same * amplitude;
   const HarmonicSet now(given.orders);
   const HarmonicSet all = now.united(own.set.orders());

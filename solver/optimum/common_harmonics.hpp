@@ -27,15 +27,14 @@ struct LackedHarmonics {
 };
 
 /// @param best   the highest peak at its value, solved for with the harmonics of `given`.
+/// @param highest  of the curve there, which the choice begins with; nullptr: not known.
 /// @param range  chooses harmonics.
 /// @param work   what that costs is added.
 /// @return empty: with those that it chooses itself it is as high, within the tolerance of `range`
 ///         or 1 %, or they are all given already, or are not found.
-[[nodiscard]] std::optional<LackedHarmonics> lacked_harmonics(const SceneFamily& family,
-                                                              const PeakOfParameter& best,
-                                                              const ContinuationOptions& given,
-                                                              const ContinuationOptions& range,
-                                                              PeakWork& work);
+[[nodiscard]] std::optional<LackedHarmonics> lacked_harmonics(
+    const SceneFamily& family, const PeakOfParameter& best, const ResponsePoint* highest,
+    const ContinuationOptions& given, const ContinuationOptions& range, PeakWork& work);
 
 /// What the harmonics of a peak leave out, over its amplitude; harmonics are chosen by `range`.
 [[nodiscard]] double left_out_at(const Scene& scene, const ResponsePoint& peak,

@@ -86,6 +86,9 @@ constexpr double as_good = 1.01;  // times the minimum
 constexpr double flat_within = 1.0 + 1e-7;
 // A smooth minimum is as level as that over some 1e-3 of its parameter; of the scale.
 constexpr double flat_width = 0.02;
+// Times the lowest amplitude: what lies beyond a value that high, as seen from the one believed to
+// be the best, is not searched.
+constexpr double rim = 1.1;
 constexpr double rough = 1e-2;  // of the scale: tolerance for a valley that may not be the lowest
 
 /// A share of the scale as a distance of positions.
@@ -163,6 +166,11 @@ class Search {
     }
   }
 
+  /// Of the curve at a value; nullptr: none was traced.
+  [[nodiscard]] const ResponsePoint* highest_at(const PeakOfParameter& value) const {
+    return peaks_.highest_point(value.parameter);
+  }
+
  private:
   Optimum searched() {
     peaks_.trace();
@@ -192,6 +200,7 @@ class Search {
             .n_values = options.n_scan,
             .n_checks = 3,
             .only_check = options.believed,
+            .rim = rim,
             .scale = options.scale,
             .amplitude_tolerance = options.amplitude_tolerance,
             .together = options.together};
@@ -522,7 +531,7 @@ OptimumOptions about(const OptimumOptions& options, const Optimum& first) {
   constexpr double least_factor = 1.5;
   constexpr double share = 0.25;  // of a linear scale
   constexpr double least_share = 0.1;
-  constexpr int n_scan = 5;
+  constexpr int n_scan = 9;
   const double best = first.best.parameter;
   const bool logarithmic = options.scale == ParameterScale::logarithmic;
   const double span = options.upper - options.lower;
@@ -569,7 +578,8 @@ Optimum search_with_own_harmonics(const SceneFamily& family, const ContinuationO
   Optimum before;
   double amplitude = 0.0;  // what was lacked there
   for (int searches = 1;; ++searches) {
-    Optimum result = Search(family, chosen, options).run();
+    Search search(family, chosen, options);
+    Optimum result = search.run();
     if (is_stopped(result) && before.found) {
       add_work(before, result);
       before.warnings.push_back(
@@ -581,7 +591,7 @@ Optimum search_with_own_harmonics(const SceneFamily& family, const ContinuationO
     add_work(result, before);
     if (!result.found) return result;
     std::optional<LackedHarmonics> lacked =
-        lacked_harmonics(family, result.best, chosen, range, work);
+        lacked_harmonics(family, result.best, search.highest_at(result.best), chosen, range, work);
     if (!lacked) return result;
     if (searches == most_searches) {
       result.warnings.push_back(
@@ -601,7 +611,9 @@ Optimum search_with_own_harmonics(const SceneFamily& family, const ContinuationO
 Optimum search_by_few_first(const SceneFamily& family, const ContinuationOptions& range,
                             const OptimumOptions& options) {
   OptimumOptions first_options = options;
-  first_options.search_starts = 0;
+  // Solutions beside the curves are looked for with few harmonics where peaks need not be exact.
+  const bool coarse = options.amplitude_tolerance > OptimumOptions{}.amplitude_tolerance;
+  if (!coarse) first_options.search_starts = 0;
   first_options.relative_tolerance = std::max(options.relative_tolerance, rough);
   const HarmonicSet least = least_harmonics(family(options.upper));
   ContinuationOptions lean = with_harmonics(range, least.united(HarmonicSet(few).orders()));
@@ -621,7 +633,8 @@ Optimum search_by_few_first(const SceneFamily& family, const ContinuationOptions
     return result;
   }
   ContinuationOptions chosen = with_common_harmonics(family, {first.best.parameter}, range, work);
-  const OptimumOptions near = about(options, first);
+  OptimumOptions near = about(options, first);
+  if (coarse && !first.best.detached) near.search_starts = 0;
   Optimum result = search_with_own_harmonics(family, range, near, chosen, work);
   const double rounding = 1e-9 * (near.upper - near.lower);
   const double best = result.best.parameter;

@@ -66,6 +66,9 @@ struct PeakTraceOptions {
   int n_checks = 4;    ///< whole curves, spread evenly, both bounds included, ≥ 2
   /// In their place: one whole curve, at the value nearest to this, between the bounds.
   std::optional<double> only_check;
+  /// Times the lowest amplitude: with `only_check` values beyond the first that is higher, on
+  /// either side, are left out.
+  double rim = std::numeric_limits<double>::infinity();
   ParameterScale scale = ParameterScale::logarithmic;
   /// Relative: amplitudes that close are the same. Above rounding, a peak that is as high as the
   /// highest of a curve need not be that peak, and what is lower than it is dropped without a word.
@@ -106,6 +109,8 @@ class PeakFamilies {
   bool confirm(double parameter, int search_starts = 0);
   /// Whether a curve was traced there, and ended before the whole range was.
   [[nodiscard]] bool is_cut_short(double parameter) const;
+  /// Of the curve traced there; nullptr: none was, or it has none.
+  [[nodiscard]] const ResponsePoint* highest_point(double parameter) const;
   /// Traces the curves that confirm() will ask for, together.
   void prepare(const std::vector<double>& parameters, int search_starts);
 
@@ -153,6 +158,7 @@ class PeakFamilies {
   const Curve& curve_at(double position, int search_starts);
   void seed(double position, int search_starts = 0);
   void settle();
+  void stop_at_rim(const Peaks& peaks, double position, double direction);
   void follow_values(std::size_t family, double from, double direction);
   [[nodiscard]] long curve_cost() const;
   bool follow_to(Followed& family, double target) const;
@@ -176,6 +182,8 @@ class PeakFamilies {
   ContinuationOptions range_;     ///< with the harmonics that all peaks have
   PeakTraceOptions options_;
   double spacing_;
+  double first_ = -std::numeric_limits<double>::infinity();  ///< positions that are followed to
+  double last_ = std::numeric_limits<double>::infinity();
   std::vector<Followed> families_;
   std::map<double, Curve> curves_;
   /// Traced ahead of what asks for them: by position and number of starts of their search.

@@ -47,20 +47,21 @@ TEST(LackedHarmonics, AreThoseThatThePeakItselfChooses) {
   ASSERT_GT(std::abs(best.amplitude / many - 1.0), 0.05);  // one harmonic does not tell this peak
   const ContinuationOptions range = choosing(0.01);
   PeakWork work;
-  const auto lacked = lacked_harmonics(chain, best, with_harmonics(range, few), range, work);
+  const auto lacked =
+      lacked_harmonics(chain, best, nullptr, with_harmonics(range, few), range, work);
   ASSERT_TRUE(lacked);
   EXPECT_NEAR(lacked->amplitude, many, 0.01 * many);
   EXPECT_GT(lacked->range.orders.size(), 1U);
   EXPECT_EQ(lacked->range.harmonic_tolerance, 0.0);
   EXPECT_GT(work.iterations, 0);
   const PeakOfParameter settled = highest_with(HarmonicSet(lacked->range.orders));
-  EXPECT_FALSE(lacked_harmonics(chain, settled, lacked->range, range, work));
+  EXPECT_FALSE(lacked_harmonics(chain, settled, nullptr, lacked->range, range, work));
 }
 
 TEST(LackedHarmonics, AreNoneOfGivenOnes) {
   PeakWork work;
   const ContinuationOptions given = with_harmonics(choosing(0.01), HarmonicSet(3));
-  EXPECT_FALSE(lacked_harmonics(chain, highest_with(HarmonicSet(3)), given, given, work));
+  EXPECT_FALSE(lacked_harmonics(chain, highest_with(HarmonicSet(3)), nullptr, given, given, work));
   EXPECT_EQ(work.iterations, 0);
 }
 

@@ -361,7 +361,8 @@ TEST(MinimisePeak, WithChosenHarmonicsIsThatOfMany) {
   const SceneFamily family = of_three_masses;
   const ContinuationOptions many = nine_harmonics();
   OptimumOptions options = preloads(20.0, 400.0);
-  options.relative_tolerance = 1e-2;
+  // The least is where a peak vanishes: below it jumps up, above it rises with the preload.
+  options.relative_tolerance = 2e-3;
   options.search_starts = 0;
   const Optimum reference = minimise_peak(family, many, options);
   ContinuationOptions chosen = many;
