@@ -37,12 +37,15 @@ class Peaks {
         std::log(load / before->parameter) / std::log(after->parameter / before->parameter);
     return std::pow(before->amplitude, 1.0 - share) * std::pow(after->amplitude, share);
   }
+  [[nodiscard]] bool reach(double load) const {
+    return load >= trace_.front().parameter && load <= trace_.back().parameter;
+  }
 
  private:
   const std::vector<solver::PeakOfParameter>& trace_;  // by parameter
 };
 
-using Values = std::array<double, neighbours.size()>;
+using Values = PeaksAboutBest;
 
 /// A branch that a sweep does not meet begins or ends at the best preload: on one side of it the
 /// nearest curve that was traced whole has its highest peak on such a branch.
@@ -66,7 +69,11 @@ bool are_those_followed(const Values& amplitudes, const solver::Optimum& optimum
   if (is_beside_detached(optimum)) return false;
   for (std::size_t i = 0; i < amplitudes.size(); ++i) {
     const double other = followed.at(neighbours[i] * best);
-    if (!(std::abs(amplitudes[i] / other - 1.0) < (i == middle ? same : nearly))) return false;
+    const double change = amplitudes[i] / other - 1.0;
+    const double allowed = i == middle ? same : nearly;
+    // The search ends where the peaks have risen: beyond they may be as high as they are.
+    const bool rises = !followed.reach(neighbours[i] * best) && change > -allowed;
+    if (!rises && !(std::abs(change) < allowed)) return false;
   }
   return true;
 }
@@ -103,12 +110,16 @@ std::map<std::string, Effects> by_source(const std::vector<CurveBudget>& budgets
   return effects;
 }
 
-/// One that is missing is taken from beside it. @return empty: more are missing.
+/// One that is missing is taken from beside it, from the larger of both. @return empty: more are
+/// missing.
 std::optional<Values> all_known(const Effects& effects) {
   const auto is_known = [](const std::optional<double>& one) { return one.has_value(); };
   if (std::ranges::count_if(effects, is_known) < 2) return std::nullopt;
-  const double centre =
-      effects[middle] ? *effects[middle] : 0.5 * (*effects.front() + *effects.back());
+  const auto larger_beside = [&] {
+    return std::abs(*effects.front()) > std::abs(*effects.back()) ? *effects.front()
+                                                                  : *effects.back();
+  };
+  const double centre = effects[middle] ? *effects[middle] : larger_beside();
   return std::array{effects.front().value_or(centre), centre, effects.back().value_or(centre)};
 }
 
@@ -122,7 +133,18 @@ double seconds_of(const std::vector<CurveBudget>& budgets, const std::string& so
   return seconds;
 }
 
-CurveBudget combined(const std::vector<CurveBudget>& budgets, const Values& amplitudes_given) {
+/// Those of the search, where they are chosen: what they lack is a row of its own.
+SceneDescription with_harmonics_of(SceneDescription scene, const solver::Optimum& optimum) {
+  if (!scene.settings.harmonics.chosen() || optimum.orders.empty()) return scene;
+  scene.settings.harmonics = {.highest = std::ranges::max(optimum.orders),
+                              .orders = optimum.orders};
+  return scene;
+}
+
+}  // namespace
+
+CurveBudget budget_about_best(const std::vector<CurveBudget>& budgets,
+                              const PeaksAboutBest& amplitudes_given) {
   const std::map<std::string, Effects> frequencies = by_source(budgets, peak_frequency_goal);
   const std::map<std::string, Effects> energies = by_source(budgets, dissipated_energy_goal);
   CurveBudget result;
@@ -148,7 +170,8 @@ CurveBudget combined(const std::vector<CurveBudget>& budgets, const Values& ampl
     };
     add(best_value_goal, shift(amplitudes_given, *known));
     add(best_amplitude_goal, lowest_changed(amplitudes_given, *known));
-    add(best_frequency_goal, frequencies.at(source)[middle].value_or(0.0));
+    const auto of_frequency = all_known(frequencies.at(source));
+    add(best_frequency_goal, of_frequency ? (*of_frequency)[middle] : 0.0);
     if (!result.energy_ratio) continue;
     const auto of_energy = energies.find(source);
     add(best_energy_goal, of_energy != energies.end() && of_energy->second[middle]
@@ -158,16 +181,6 @@ CurveBudget combined(const std::vector<CurveBudget>& budgets, const Values& ampl
   result.unknown = {unknown.begin(), unknown.end()};
   return result;
 }
-
-/// Those of the search, where they are chosen: what they lack is a row of its own.
-SceneDescription with_harmonics_of(SceneDescription scene, const solver::Optimum& optimum) {
-  if (!scene.settings.harmonics.chosen() || optimum.orders.empty()) return scene;
-  scene.settings.harmonics = {.highest = std::ranges::max(optimum.orders),
-                              .orders = optimum.orders};
-  return scene;
-}
-
-}  // namespace
 
 CurveBudget optimum_budget(const ReducedModel& model, const SceneDescription& scene,
                            const RicherModels& richer, const solver::Optimum& optimum, int jobs) {
@@ -188,7 +201,7 @@ CurveBudget optimum_budget(const ReducedModel& model, const SceneDescription& sc
   });
   if (interrupt_requested() || cut_short()) return {};
   if (!are_those_followed(amplitudes, optimum)) return {};
-  return combined(budgets, amplitudes);
+  return budget_about_best(budgets, amplitudes);
 }
 
 }  // namespace microslip::pipelines

@@ -3,6 +3,9 @@
 /// about it, and so to where the lowest of them lies.
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "pipelines/accuracy/error_budget.hpp"
 #include "pipelines/accuracy/richer_models.hpp"
 #include "solver/optimum.hpp"
@@ -25,5 +28,13 @@ namespace microslip::pipelines {
 [[nodiscard]] CurveBudget optimum_budget(const ReducedModel& model, const SceneDescription& scene,
                                          const RicherModels& richer, const solver::Optimum& optimum,
                                          int jobs);
+
+/// Highest peaks of the curves at 0.84 p, p and 1.19 p [m].
+using PeaksAboutBest = std::array<double, 3>;
+
+/// The rows of the best value from those of the three curves. A source that one of them does not
+/// tell has there the effect it has beside it, the larger one; which two do not tell is unknown.
+[[nodiscard]] CurveBudget budget_about_best(const std::vector<CurveBudget>& budgets,
+                                            const PeaksAboutBest& amplitudes);
 
 }  // namespace microslip::pipelines

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -63,6 +64,31 @@ TEST(OptimumBudget, HasNoRowsWhereADetachedPeakBegins) {
     ASSERT_TRUE(found.optimum.found);
     EXPECT_TRUE(found.budget.rows.empty()) << harmonics;
   }
+}
+
+/// One source with an effect on the peak, or with none that could be told.
+CurveBudget of_mesh(std::optional<double> effect) {
+  CurveBudget budget;
+  if (!effect) {
+    budget.unknown = {"mesh"};
+    return budget;
+  }
+  budget.rows = {{"", peak_amplitude_goal, "mesh", *effect, ErrorKind::solved, 1.0},
+                 {"", peak_frequency_goal, "mesh", 0.1 * *effect, ErrorKind::solved, 1.0}};
+  return budget;
+}
+
+TEST(OptimumBudget, DoesNotAverageAwayASourceThatTheBestCurveCannotTell) {
+  // The peak with the other mesh is not found at the best value; beside it signs differ.
+  const CurveBudget budget =
+      budget_about_best({of_mesh(0.02), of_mesh({}), of_mesh(-0.015)}, {1.1, 1.0, 1.1});
+  EXPECT_NEAR(told(budget, best_amplitude_goal), 0.02, 1e-12);
+  EXPECT_NEAR(told(budget, best_frequency_goal), 0.002, 1e-12);
+  EXPECT_TRUE(budget.unknown.empty());
+  const CurveBudget one =
+      budget_about_best({of_mesh({}), of_mesh({}), of_mesh(-0.015)}, {1.1, 1.0, 1.1});
+  EXPECT_TRUE(one.rows.empty());
+  EXPECT_EQ(one.unknown, std::vector<std::string>{"mesh"});
 }
 
 TEST(OptimumBudget, HasNoRowsWhereNothingIsFound) {
