@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -280,6 +281,19 @@ void tell_bounds(const std::vector<ErrorRow>& rows, double tolerance,
     tell_together(rows, tolerance, none, effect);
     if (!told.anything() && !effect.bound) tell_none(none, effect);
   }
+}
+
+BesideBar beside_bar(const std::vector<ErrorRow>& rows, const std::vector<std::string>& names) {
+  BesideBar left_out;
+  for (const std::string& name : names) {
+    double largest = std::numeric_limits<double>::quiet_NaN();
+    for (const ErrorRow& row : rows) {
+      const bool tells = row.goal != end_amplitude_goal && tells_without_peak(row, name);
+      if (tells || tells_change(row, name)) largest = std::fmax(largest, std::abs(row.effect));
+    }
+    left_out.emplace(name, largest);
+  }
+  return left_out;
 }
 
 std::vector<MissedEffect> missed_effects(const std::vector<ErrorRow>& rows, double tolerance,

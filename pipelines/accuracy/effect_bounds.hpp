@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "pipelines/effects/beside_bar.hpp"
 #include "pipelines/effects/effect_record.hpp"
 #include "pipelines/response/error_row.hpp"
 
@@ -20,6 +21,12 @@ namespace microslip::pipelines {
 /// @param none  of effects that are owed a bound.
 void tell_bounds(const std::vector<ErrorRow>& rows, double tolerance,
                  std::vector<EffectRecord>& effects, const std::vector<NoBound>& none = {});
+
+/// The same of one curve, beside its bar: every effect that is left out, each alone.
+/// @param rows   of rows_left_out().
+/// @param names  of effects that are left out (effects_left_out()).
+[[nodiscard]] BesideBar beside_bar(const std::vector<ErrorRow>& rows,
+                                   const std::vector<std::string>& names);
 
 /// An effect that `auto` had left out, and that matters.
 struct MissedEffect {

@@ -4,11 +4,13 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <system_error>
 #include <utility>
 
 #include <fmt/core.h>
 
+#include "pipelines/effects/beside_bar.hpp"
 #include "pipelines/files/plot_script.hpp"
 #include "pipelines/response/error_row.hpp"
 #include "pipelines/system/deadline.hpp"
@@ -163,6 +165,20 @@ std::string detached_text(const JsonEntry& curve) {
       files);
 }
 
+/// Effects that are left out, beside a bar; those of earlier versions do not say.
+BesideBar left_out_of(const JsonEntry& bar) {
+  BesideBar left_out;
+  for (const JsonEntry& one : bar.list("left_out")) {
+    double change = std::numeric_limits<double>::quiet_NaN();
+    if (one.has("change")) {
+      const JsonEntry told = one.at("change");
+      change = told.is_number() ? told.as_number() : std::numeric_limits<double>::infinity();
+    }
+    left_out.emplace(one.text("effect"), change);
+  }
+  return left_out;
+}
+
 /// The best value of a search; the first versions searched the preload alone.
 double value_of(const JsonEntry& optimum) {
   return optimum.number(optimum.has("value") ? "value" : "preload_N");
@@ -228,13 +244,14 @@ std::string optimum_sentence(const JsonEntry& optimum) {
           ? fmt::format(", dissipating {} J in a period",
                         number(optimum.number("dissipated_energy_J"), best_energy_goal, "{:.5g}"))
           : "";
-  return fmt::format("Best {}: {}{}, {} {} m at {} Hz{}{}{}.", key,
+  const std::string beside = barred ? after_bar(left_out_of(optimum.at("bar"))) : "";
+  return fmt::format("Best {}: {}{}, {} {} m at {} Hz{}{}{}{}.", key,
                      number(value_of(optimum), best_value_goal, "{:.6g}"),
                      key == "preload" ? " N" : " (SI)",
                      place_of(optimum) == "peak" ? "peak" : "largest amplitude",
                      number(optimum.number("amplitude_m"), best_amplitude_goal, "{:.5g}"),
                      number(optimum.number("frequency_Hz"), best_frequency_goal, "{:.4f}"), energy,
-                     message.empty() ? "" : "; ", message);
+                     beside, message.empty() ? "" : "; ", message);
 }
 
 std::string optimum_text(const JsonEntry& optimum) {
@@ -290,11 +307,15 @@ std::string effects_text(const JsonEntry& run, const std::string& curve, const s
 }
 
 /// What the bar of a curve leaves out, in words.
-std::string not_known_text(const JsonEntry& bar) {
+std::string not_in_bar_text(const JsonEntry& bar) {
   std::string text;
   for (const JsonEntry& source : bar.list("not_known")) {
     text += fmt::format("{}{}", text.empty() ? "" : ", ", source.as_text());
   }
+  if (text.empty())
+    text = beside_bar_text(left_out_of(bar));
+  else
+    text += after_bar(left_out_of(bar));
   return text.empty() ? "–" : text;
 }
 
@@ -318,7 +339,7 @@ std::string accuracy_text(const JsonEntry& run) {
   text += accuracy.has("reached") ? "reached " + percent_text(accuracy.number("reached"))
                                   : "reached what is not known of every curve";
   for (const JsonEntry& step : accuracy.list("refined")) text += "; then with " + step.as_text();
-  return text + ".\n\n";
+  return text + after_bar(left_out_of(accuracy)) + ".\n\n";
 }
 
 /// How far the peaks can be trusted; empty without a budget.
@@ -329,7 +350,7 @@ std::string budget_text(const JsonEntry& run) {
       "What would be added to amplitude and dissipated energy of the highest peak if one choice "
       "were refined to its end; all of them together are the half width.\n\n"
       "| curve | peak [m] | amplitude ± | frequency ± | of the amplitude | dissipated [J] | ± | of "
-      "the energy | not known |\n"
+      "the energy | not in ± |\n"
       "|---|---:|---:|---:|---|---:|---:|---|---|\n";
   for (const JsonEntry& curve : run.list("curves")) {
     if (!curve.has("bar") || !curve.has("peak")) continue;
@@ -340,7 +361,7 @@ std::string budget_text(const JsonEntry& run) {
                         percent_text(bar.number("peak_amplitude")),
                         percent_text(bar.number("peak_frequency")),
                         effects_text(run, curve.text("name"), peak_amplitude_goal),
-                        energy_cells(run, curve), not_known_text(bar));
+                        energy_cells(run, curve), not_in_bar_text(bar));
   }
   return text;
 }

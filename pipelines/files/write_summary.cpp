@@ -105,6 +105,16 @@ Json to_array(const std::vector<Item>& items) {
   return array;
 }
 
+/// Change null: not known.
+Json to_json(const BesideBar& left_out) {
+  Json effects = Json::array();
+  for (const auto& [effect, change] : left_out) {
+    const Json told = std::isnan(change) ? Json(nullptr) : finite_or_null(change);
+    effects.push_back({{"effect", effect}, {"change", told}});
+  }
+  return effects;
+}
+
 /// Null: not found from the peak of the curve.
 Json to_json(const solver::RicherPeak& peak) {
   const bool found = peak.change.has_value();
@@ -124,6 +134,7 @@ Json bar_json(const CurveSummary& curve, const std::vector<ErrorRow>& budget) {
   if (bar.empty()) return nullptr;
   if (!bar.contains(dissipated_energy_goal)) bar[dissipated_energy_goal] = nullptr;
   bar["not_known"] = curve.not_in_bar;
+  bar["left_out"] = to_json(curve.left_out);
   return bar;
 }
 
@@ -163,6 +174,7 @@ Json to_json(const AccuracySummary& accuracy) {
   return {{"asked", accuracy.asked > 0.0 ? Json(accuracy.asked) : Json("off")},
           {"reached", known ? Json(accuracy.reached) : Json(nullptr)},
           {"not_known", accuracy.not_known},
+          {"left_out", to_json(accuracy.left_out)},
           {"refined", accuracy.refined},
           {"out_of_time", accuracy.out_of_time},
           {"message", accuracy.message}};
@@ -252,6 +264,7 @@ Json bar_json(const OptimumSummary& summary) {
   if (bar.empty()) return nullptr;
   if (!bar.contains(best_energy_goal)) bar[best_energy_goal] = nullptr;
   bar["not_known"] = unknown;
+  bar["left_out"] = to_json(summary.left_out);
   return bar;
 }
 

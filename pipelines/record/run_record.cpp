@@ -306,6 +306,17 @@ void RunRecord::tell_effects() {
   }
 }
 
+BesideBar RunRecord::left_out() {
+  const std::lock_guard lock(mutex_);
+  return left_out_of_curves();
+}
+
+BesideBar RunRecord::left_out_of_curves() const {
+  BesideBar of_all;
+  for (const CurveSummary& curve : summary_.curves) keep_larger(curve.left_out, of_all);
+  return of_all;
+}
+
 void RunRecord::keep_accuracy(AccuracySummary accuracy) {
   const std::lock_guard lock(mutex_);
   summary_.accuracy = std::move(accuracy);
@@ -486,7 +497,8 @@ void RunRecord::keep_optimum(const ReducedModel& model, const OptimumRequest& re
       request.of_preload() ? "best preload"
       : request.load       ? fmt::format("best {} under preload {:g}", request.key, *request.load)
                            : fmt::format("best {} under the static preload", request.key);
-  progress_.info(fmt::format("{}: {}", what, best_text(optimum, unit, budget)));
+  const std::string beside = budget.has_bar() ? after_bar(left_out()) : "";
+  progress_.info(fmt::format("{}: {}{}", what, best_text(optimum, unit, budget), beside));
   for (const std::string& note : optimum.notes) progress_.info("optimum: " + note);
   for (const std::string& warning : optimum.warnings) progress_.warning("optimum: " + warning);
   note_optimum(model, request, optimum, budget);
@@ -500,19 +512,25 @@ void RunRecord::note_optimum(const ReducedModel& model, const OptimumRequest& re
   summary.optimum = optimum;
   summary.error_budget = budget.rows;
   summary.not_in_bar = budget.unknown;
+  summary.left_out = left_out_of_curves();
   if (!budget.rows.empty()) summary.dissipated_energy = budget.dissipated_energy;
   if (!in_newtons(model)) summary.newtons_per_load = contact_of(model, 1.0).at_rest().carried;
   write_optimum_csv(staged_, request, optimum);
 }
 
-void RunRecord::keep_budget(const CurveBudget& budget, const CurveResult& result,
-                            const ReducedModel& model) {
-  if (const std::string text = budget_text(budget); !text.empty()) progress_.info(text);
+void RunRecord::keep_budget(const CurveBudget& budget, BesideBar left_out,
+                            const CurveResult& result, const ReducedModel& model) {
+  if (const std::string text = budget_text(budget); !text.empty()) {
+    progress_.info(text + after_bar(left_out));
+  }
   const std::lock_guard lock(mutex_);
   summary_.error_budget.insert(summary_.error_budget.end(), budget.rows.begin(), budget.rows.end());
   left_out_.insert(left_out_.end(), budget.left_out.begin(), budget.left_out.end());
   for (CurveSummary& curve : summary_.curves) {
-    if (curve.name == result.name) curve.not_in_bar = budget.unknown;
+    if (curve.name != result.name) continue;
+    curve.not_in_bar = budget.unknown;
+    curve.left_out = std::move(left_out);
+    break;
   }
   if (result.bar) write_curve(staged_, result, model.frequency.size());
 }

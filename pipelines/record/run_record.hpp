@@ -78,6 +78,8 @@ class RunRecord {
   void keep_bounds(double tolerance, const std::vector<NoBound>& none);
   /// The table of effects to the log, and a warning of each that is left out and should not be.
   void tell_effects();
+  /// Of all curves, beside their bars.
+  [[nodiscard]] BesideBar left_out();
   /// The accuracy asked for and whether it is reached.
   void keep_accuracy(AccuracySummary accuracy);
   /// What the curves kept so far say about the effects chosen.
@@ -113,7 +115,8 @@ class RunRecord {
                     const solver::Optimum& optimum, const CurveBudget& budget);
   void keep_bracket(OptimumBracket bracket);
   /// The bar joins the curve's CSV. @param result  kept before; its bar is set.
-  void keep_budget(const CurveBudget& budget, const CurveResult& result, const ReducedModel& model);
+  void keep_budget(const CurveBudget& budget, BesideBar left_out, const CurveResult& result,
+                   const ReducedModel& model);
   /// report.md and plots, of what is there.
   void keep_report();
 
@@ -145,6 +148,8 @@ class RunRecord {
   /// Why the accuracy asked for is not reached, or that time was over; empty: neither.
   /// Under the mutex.
   [[nodiscard]] std::string ending() const;
+  /// Under mutex_.
+  [[nodiscard]] BesideBar left_out_of_curves() const;
 
   /// Takes the folder over from an earlier run.
   void begin();

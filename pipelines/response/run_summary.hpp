@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "pipelines/effects/beside_bar.hpp"
 #include "pipelines/effects/effect_record.hpp"
 #include "pipelines/model/reduced_model.hpp"
 #include "pipelines/response/error_row.hpp"
@@ -78,6 +79,7 @@ struct CurveSummary {
   std::vector<solver::SolverEvent> remedies;
   std::size_t detached_branches = 0;
   std::vector<std::string> not_in_bar;  ///< sources of error that could not be told
+  BesideBar left_out;                   ///< effects
   int search_starts = 0;
 };
 
@@ -88,6 +90,7 @@ struct OptimumSummary {
   double newtons_per_load = 1.0;  ///< where loads are scales: the force carried at scale 1 [N]
   std::vector<ErrorRow> error_budget{};       ///< of value, amplitude and frequency
   std::vector<std::string> not_in_bar{};      ///< sources of error that could not be told
+  BesideBar left_out{};                       ///< effects, by what they change peaks of the curves
   std::optional<double> dissipated_energy{};  ///< by friction in a period [J]; empty: not told
 };
 
@@ -96,6 +99,7 @@ struct AccuracySummary {
   double asked = 0.0;                  ///< relative; 0: settings as written
   double reached = 0.0;                ///< the largest bar of all curves; infinite: not known
   std::vector<std::string> not_known;  ///< sources that a bar leaves out
+  BesideBar left_out;                  ///< effects
   std::vector<std::string> refined;    ///< what was refined, round by round
   bool out_of_time = false;  ///< what was asked for is not there, with more time it would be
   std::string message;       ///< in words; empty: reached

@@ -77,12 +77,13 @@ std::string reached_text(const AccuracySummary& accuracy) {
   if (!accuracy.not_known.empty()) {
     text += fmt::format(", not counting {}", fmt::join(accuracy.not_known, ", "));
   }
-  return text;
+  return text + after_bar(accuracy.left_out);
 }
 
-void look_at(const Solution& solution, AccuracySummary& accuracy) {
+void look_at(const Solution& solution, RunRecord& record, AccuracySummary& accuracy) {
   accuracy.reached = largest_bar(solution.budgets);
   accuracy.not_known = not_in_bars(solution.budgets);
+  accuracy.left_out = record.left_out();
 }
 
 /// Only limits, or no contact: nothing has an error that is told.
@@ -98,7 +99,7 @@ void refine_to_tolerance(Solution& solution, int jobs, RunRecord& record) {
   AccuracySummary accuracy;
   accuracy.asked = solution.scene.accuracy.tolerance;
   if (accuracy.asked == 0.0) return;
-  look_at(solution, accuracy);
+  look_at(solution, record, accuracy);
   bool puts_back = true;
   std::string missing = "more rounds of refinement would be needed";
   for (int i = 0; i < most_rounds && has_budgets(solution); ++i) {
@@ -132,7 +133,7 @@ void refine_to_tolerance(Solution& solution, int jobs, RunRecord& record) {
     accuracy.refined.push_back(next->text);
     // What was rightly left out of the coarser model need not be so of this one.
     if (puts_back) puts_back = put_back_missed_effects(solution, jobs, record);
-    look_at(solution, accuracy);
+    look_at(solution, record, accuracy);
   }
   const bool met = accuracy.reached <= accuracy.asked;
   accuracy.out_of_time = !met && was_cut_short();

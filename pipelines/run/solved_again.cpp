@@ -5,6 +5,7 @@
 #include <exception>
 #include <utility>
 
+#include "pipelines/accuracy/effect_bounds.hpp"
 #include "pipelines/accuracy/models_left_out.hpp"
 #include "pipelines/description/curve_request.hpp"
 #include "pipelines/description/damping_ratios.hpp"
@@ -179,8 +180,11 @@ void keep_solved_again(const SolvedAgain& round, bool new_mesh, RunRecord& recor
 }
 
 void keep_budgets(const Solution& solution, RunRecord& record) {
+  const std::vector<std::string> names = effects_left_out(solution.model, solution.scene);
   for (std::size_t i = 0; i < solution.budgets.size(); ++i) {
-    record.keep_budget(solution.budgets[i], solution.curves[i], solution.model);
+    const CurveBudget& budget = solution.budgets[i];
+    BesideBar left_out = budget.rows.empty() ? BesideBar() : beside_bar(budget.left_out, names);
+    record.keep_budget(budget, std::move(left_out), solution.curves[i], solution.model);
   }
   record.keep_bounds(tolerance_of_effects(solution.scene), without_bound(solution));
 }

@@ -181,6 +181,25 @@ class IndicatorsAreFooled(unittest.TestCase):
         self.assertGreater(effect(forbidden, "second_direction")["bound"], 0.02)
         self.assertWarned(forbidden, "effects.second_direction: left out")
 
+    def test_what_is_left_out_stands_beside_every_bar(self):
+        # A user who reads the accuracy that was reached alone, or the bar of a curve, is told.
+        summary = run("across_asked", scene("across", across=0.4), "effects.second_direction=off", "response.harmonics=3", "accuracy.tolerance=2 %")
+        bound = effect(summary, "second_direction")["bound"]
+        self.assertGreater(bound, 0.02)
+        self.assertLess(summary["accuracy"]["reached"], 0.02)
+        told = {"effect": "second_direction", "change": bound}
+        self.assertIn(told, summary["accuracy"]["left_out"])
+        self.assertEqual([told in curve["bar"]["left_out"] for curve in summary["curves"] if curve["bar"]], [True])
+        words = f"left out: second_direction (would change peaks by up to {float(f'{100 * bound:.2g}'):g} %)"
+        for file, lines in (("log.txt", ("reached", "peak ±")), ("report.md", ("reached", "| scale_1 |"))):
+            with open(os.path.join(FOLDER, "across_asked", file), encoding="utf-8") as text:
+                of_bars = [line for line in text if any(key in line for key in lines) and "±" + " |" not in line]
+            self.assertGreaterEqual(len(of_bars), 2)
+            for line in of_bars:
+                self.assertIn(words, line)
+        # What is left to the program and simulated stands in none.
+        self.assertEqual(run("across", scene("across", across=0.4))["curves"][0]["bar"]["left_out"], [])
+
     def test_friction_along_r_of_modes_that_meet_or_stand_beside_the_range(self):
         for name in ("veering", "outside"):
             with self.subTest(name):

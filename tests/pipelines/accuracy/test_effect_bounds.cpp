@@ -229,5 +229,38 @@ TEST(MissedEffects, APeakThatIsLostWithTheEffectIsBeyondEveryTolerance) {
   EXPECT_TRUE(std::isinf(missed[0].change));
 }
 
+TEST(BesideBar, EveryEffectThatIsLeftOutIsTold) {
+  constexpr double lost = std::numeric_limits<double>::infinity();
+  const std::vector<ErrorRow> rows{
+      {"a", peak_amplitude_goal, "second_direction", -0.075, ErrorKind::solved, 0.1},
+      {"a", peak_frequency_goal, "second_direction", 0.01, ErrorKind::solved, 0.1},
+      {"a", peak_amplitude_goal, "normal_motion", 2e-6, ErrorKind::solved, 0.1},
+      {"a", peak_amplitude_goal, "moments", lost, ErrorKind::estimated, 0.1},
+      {"a", peak_outside_goal, "centrifugal", 0.21, ErrorKind::solved, 0.1},
+      {"a", peak_amplitude_goal, "normal_motion + moments", 0.5, ErrorKind::solved, 0.1}};
+  const BesideBar of_a = beside_bar(
+      rows, {"second_direction", "normal_motion", "moments", "centrifugal", "roughness"});
+  EXPECT_EQ(of_a.at("second_direction"), 0.075);
+  EXPECT_EQ(of_a.at("centrifugal"), 0.21);
+  EXPECT_EQ(
+      beside_bar_text(of_a),
+      "left out: centrifugal (would change peaks by up to 21 %), moments (with it the highest "
+      "peak is not found), roughness (what it would change is not known), second_direction "
+      "(would change peaks by up to 7.5 %)");
+  EXPECT_EQ(after_bar(beside_bar(rows, {"normal_motion"})), "");
+}
+
+TEST(BesideBar, OfSeveralCurvesTheLargestChangeCounts) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  BesideBar of_all;
+  for (const BesideBar& one : {BesideBar{{"a", 0.1}, {"b", unknown}, {"c", 0.2}},
+                               BesideBar{{"a", 0.3}, {"b", 0.4}, {"c", unknown}}}) {
+    keep_larger(one, of_all);
+  }
+  EXPECT_EQ(of_all.at("a"), 0.3);
+  EXPECT_TRUE(std::isnan(of_all.at("b")));
+  EXPECT_TRUE(std::isnan(of_all.at("c")));
+}
+
 }  // namespace
 }  // namespace microslip::pipelines::test_effect_bounds
