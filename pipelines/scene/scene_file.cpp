@@ -118,14 +118,17 @@ std::string kind_of(const Reading& reading) {
   return *value;
 }
 
-/// One harmonic is meant by a scene that does not say and asks for what knows no more,
-/// or has all of them.
+/// One harmonic is meant by a scene that does not say, or leaves it to the program and asks for no
+/// more by its effects; and by one that asks for what has all of them.
 void complete_harmonics(toml::table& given) {
   toml::table* response = given["response"].as_table();
-  if (response == nullptr || response->contains("harmonics")) return;
+  if (response == nullptr) return;
+  const toml::node* harmonics = response->get("harmonics");
+  const bool chosen = harmonics != nullptr && harmonics->value<std::string>() == "auto";
   const bool in_time = given["response"]["method"].value<std::string>() == "time";
   const bool off = given["effects"]["higher_harmonics"].value<std::string>() == "off";
-  if (in_time || off) response->insert("harmonics", 1);
+  const bool is_left = harmonics == nullptr || (chosen && off);
+  if (is_left && (in_time || off)) response->insert_or_assign("harmonics", 1);
 }
 
 /// Preloads of a scene that does not say: the limits, and that of the static loads.
@@ -356,7 +359,7 @@ SceneDescription scene_of(toml::table given, const std::string& name,
     read_meshed(reading, kind, scene);
   }
   require_static_preload(scene);
-  read_effects(reading.section("effects", "effects"), scene);
+  read_effects(reading.section("effects", "effects"), reading.given, scene);
   scene.accuracy =
       read_accuracy(reading.section("accuracy", "accuracy"),
                     static_cast<bool>(reading.given["response"]["harmonic_tolerance"]), scene);

@@ -161,7 +161,8 @@ bool has_preload_moment(const SceneDescription& scene) {
 struct Contradiction {
   std::string_view effect, setting;
   bool (*is_there)(const SceneDescription&);
-  std::string_view why;  ///< names the other key
+  std::string_view why;                 ///< names the other key
+  std::array<const char*, 2> others{};  ///< keys that are left out instead, where they are given
 };
 
 constexpr std::string_view no_normal_stiffness =
@@ -174,42 +175,76 @@ constexpr std::string_view without_nonlinearity =
 
 constexpr std::array contradictions{
     Contradiction{"nonlinearity", "on", lacks_contact, "needs a [contact]"},
-    Contradiction{"nonlinearity", "off", asks_for_preloads,
+    Contradiction{"nonlinearity",
+                  "off",
+                  asks_for_preloads,
                   "contradicts response.preload (or preload_scale): contact without it is one of "
-                  "the limits, response.preload = [\"free\", \"stuck\"]"},
-    Contradiction{
-        "nonlinearity", "off", asks_for_best_value,
-        "contradicts response.optimum, which searches along curves of contact that slips: "
-        "leave that out"},
+                  "the limits, response.preload = [\"free\", \"stuck\"]",
+                  {"response.preload", "response.preload_scale"}},
+    Contradiction{"nonlinearity",
+                  "off",
+                  asks_for_best_value,
+                  "contradicts response.optimum, which searches along curves of contact that slips",
+                  {"response.optimum"}},
     Contradiction{"normal_motion", "on", has_constant_load, no_normal_stiffness},
-    Contradiction{"normal_motion", "off", is_rough,
-                  "contradicts contact.roughness: rough surfaces are felt by normal motion"},
-    Contradiction{"normal_motion", "off", is_all_open,
+    Contradiction{"normal_motion",
+                  "off",
+                  is_rough,
+                  "contradicts contact.roughness: rough surfaces are felt by normal motion",
+                  {"contact.roughness"}},
+    Contradiction{"normal_motion",
+                  "off",
+                  is_all_open,
                   "contradicts a gap, which normal motion alone closes: response.preload (or its "
                   "optimum_range) below 0, or preload of every contact point. Without it the "
-                  "contact never touches: response.preload = [\"free\"] asks for that"},
-    Contradiction{"separation", "on", lacks_normal_motion, without_normal_motion},
+                  "contact never touches: response.preload = [\"free\"] asks for that",
+                  {"response.optimum_range", "response.preload"}},
+    Contradiction{
+        "separation", "on", lacks_normal_motion, without_normal_motion, {"effects.normal_motion"}},
     Contradiction{"separation", "on", has_constant_load, no_normal_stiffness},
-    Contradiction{"separation", "on", lacks_nonlinearity, without_nonlinearity},
-    Contradiction{"separation", "off", has_gap,
+    Contradiction{
+        "separation", "on", lacks_nonlinearity, without_nonlinearity, {"effects.nonlinearity"}},
+    Contradiction{"separation",
+                  "off",
+                  has_gap,
                   "contradicts a gap, which closes and opens: response.preload below 0, or preload "
-                  "of a contact point"},
-    Contradiction{"mean_coupling", "on", lacks_normal_motion, without_normal_motion},
+                  "of a contact point",
+                  {"response.optimum_range", "response.preload"}},
+    Contradiction{"mean_coupling",
+                  "on",
+                  lacks_normal_motion,
+                  without_normal_motion,
+                  {"effects.normal_motion"}},
     Contradiction{"mean_coupling", "on", has_constant_load, no_normal_stiffness},
-    Contradiction{"mean_coupling", "on", lacks_nonlinearity, without_nonlinearity},
+    Contradiction{
+        "mean_coupling", "on", lacks_nonlinearity, without_nonlinearity, {"effects.nonlinearity"}},
     Contradiction{"second_direction", "on", lacks_motion_along_r,
                   "needs modes that move along r: phi_w_1 … of modal.points (kinds chain and bar "
                   "have none)"},
     Contradiction{"higher_harmonics", "on", lacks_harmonics, "needs response.harmonics above 1"},
-    Contradiction{"higher_harmonics", "on", lacks_nonlinearity, without_nonlinearity},
-    Contradiction{"higher_harmonics", "off", has_harmonics,
-                  "contradicts response.harmonics: leave that out"},
-    Contradiction{"higher_harmonics", "off", goes_in_time,
-                  "contradicts response.method = \"time\", which has all harmonics"},
+    Contradiction{"higher_harmonics",
+                  "on",
+                  lacks_nonlinearity,
+                  without_nonlinearity,
+                  {"effects.nonlinearity"}},
+    Contradiction{"higher_harmonics",
+                  "off",
+                  has_harmonics,
+                  "contradicts response.harmonics",
+                  {"response.harmonics"}},
+    Contradiction{"higher_harmonics",
+                  "off",
+                  goes_in_time,
+                  "contradicts response.method = \"time\", which has all harmonics",
+                  {"response.method"}},
     Contradiction{"roughness", "on", is_smooth, "needs contact.roughness"},
     Contradiction{"rate_dependence", "on", has_constant_friction,
                   "needs a law of contact.friction_coefficient"},
-    Contradiction{"rate_dependence", "on", lacks_nonlinearity, without_nonlinearity},
+    Contradiction{"rate_dependence",
+                  "on",
+                  lacks_nonlinearity,
+                  without_nonlinearity,
+                  {"effects.nonlinearity"}},
     Contradiction{"moments", "on", lacks_area,
                   "needs an area: cells and size in contact.points, or p and r of modal.points"},
     Contradiction{"residual", "on", lacks_residual,
@@ -222,43 +257,92 @@ constexpr std::array contradictions{
         "local_frames", "on", lacks_faces,
         "needs contact.surface, a face of a mesh: contact points of a modal scene have the "
         "directions of the modes given for them"},
-    Contradiction{"local_frames", "on", has_fit_degree,
-                  "contradicts contact.fit: a field is fitted in a plane; leave that out"},
-    Contradiction{"local_frames", "on", has_preload_moment,
-                  "contradicts contact.preload_moment, which tilts a plane face"},
+    Contradiction{"local_frames",
+                  "on",
+                  has_fit_degree,
+                  "contradicts contact.fit: a field is fitted in a plane",
+                  {"contact.fit"}},
+    Contradiction{"local_frames",
+                  "on",
+                  has_preload_moment,
+                  "contradicts contact.preload_moment, which tilts a plane face",
+                  {"contact.preload_moment"}},
     Contradiction{"static_preload", "on", lacks_static_preload,
                   "needs contact.preload = \"static\" and the loads of [static]"},
     Contradiction{"centrifugal", "on", is_at_rest, "needs static.speed and static.axis"},
-    Contradiction{"centrifugal", "off", searches_for_speed,
-                  "contradicts response.optimum = \"static.speed\", which searches for it"},
+    Contradiction{"centrifugal",
+                  "off",
+                  searches_for_speed,
+                  "contradicts response.optimum = \"static.speed\", which searches for it",
+                  {"response.optimum"}},
     Contradiction{"centrifugal", "off", presses_by_rotation_alone,
                   "contradicts contact.preload = \"static\", which nothing presses without "
                   "static.speed: expected static.forces, static.pressure or contact.gap below 0"},
     Contradiction{"wear", "on", lacks_wear, "needs contact.wear_coefficient"},
-    Contradiction{"wear", "on", refuses_maps,
-                  "contradicts effects.maps = \"off\": it is drawn in maps"},
+    Contradiction{"wear",
+                  "on",
+                  refuses_maps,
+                  "contradicts effects.maps = \"off\": it is drawn in maps",
+                  {"effects.maps"}},
     Contradiction{"wear", "on", lacks_maps, "needs response.maps, which it is drawn in"},
     Contradiction{"maps", "on", lacks_maps, "needs response.maps"},
-    Contradiction{"coexistence", "on", refuses_to_search,
-                  "contradicts response.search_starts = 0: leave that out"},
-    Contradiction{"coexistence", "on", goes_in_time,
+    Contradiction{"coexistence",
+                  "on",
+                  refuses_to_search,
+                  "contradicts response.search_starts = 0",
+                  {"response.search_starts"}},
+    Contradiction{"coexistence",
+                  "on",
+                  goes_in_time,
                   "needs response.method = \"harmonic_balance\": integration in time follows one "
-                  "motion"},
-    Contradiction{"coexistence", "on", lacks_nonlinearity, without_nonlinearity},
-    Contradiction{"coexistence", "off", searches,
-                  "contradicts response.search_starts: leave that out"},
+                  "motion",
+                  {"response.method"}},
+    Contradiction{
+        "coexistence", "on", lacks_nonlinearity, without_nonlinearity, {"effects.nonlinearity"}},
+    Contradiction{"coexistence",
+                  "off",
+                  searches,
+                  "contradicts response.search_starts",
+                  {"response.search_starts"}},
 };
+
+/// Of a key as users write it; of several contacts in the first that has it; nullptr: not given.
+const toml::node* node_of(std::string_view key, const toml::table& given) {
+  const std::size_t dot = key.find('.');
+  const toml::node* section = given.get(key.substr(0, dot));
+  const auto in = [&](const toml::node& one) {
+    return one.is_table() ? one.as_table()->get(key.substr(dot + 1)) : nullptr;
+  };
+  if (section == nullptr) return nullptr;
+  if (!section->is_array()) return in(*section);
+  for (const toml::node& one : *section->as_array()) {
+    if (const toml::node* found = in(one)) return found;
+  }
+  return nullptr;
+}
+
+/// "leave out response.harmonics (scene.toml:12) or ", of the first that is given.
+std::string leaving_out(const std::array<const char*, 2>& others, const toml::table& given,
+                        const std::string& file) {
+  for (const char* other : others) {
+    const toml::node* node = other != nullptr ? node_of(other, given) : nullptr;
+    if (node != nullptr) return fmt::format("leave out {} ({}) or ", other, place_of(node, file));
+  }
+  return "else leave out ";
+}
 
 }  // namespace
 
-void read_effects(const SectionReader& s, SceneDescription& scene) {
+void read_effects(const SectionReader& s, const toml::table& given, SceneDescription& scene) {
   for (const EffectRow& row : effect_table) {
     scene.effects.emplace_back(row.name, s.word(row.name, settings));
   }
   leave_out_effects(scene);
-  for (const auto& [effect, setting, is_there, why] : contradictions) {
+  for (const auto& [effect, setting, is_there, why, others] : contradictions) {
     if (setting_of(scene, effect) == setting && is_there(scene)) {
-      s.fail(effect, fmt::format("\"{}\" {}", setting, why), s.node(effect));
+      const std::string leaving = leaving_out(others, given, s.file());
+      s.fail(effect, fmt::format("\"{}\" {}; {}effects.{}", setting, why, leaving, effect),
+             s.node(effect));
     }
   }
   if (const std::string frames = setting_of(scene, "local_frames"); frames != "auto") {

@@ -9,8 +9,10 @@
 namespace microslip::pipelines {
 
 /// Sets SceneDescription::effects, in the order of the table, and the choice of directions.
+/// @param given  the whole scene, for messages.
 /// @param scene  read but for its effects.
-/// @throws SceneError  a setting that contradicts another key; the message names both.
-void read_effects(const SectionReader& s, SceneDescription& scene);
+/// @throws SceneError  a setting that contradicts another key; the message names both, and where
+///                     the other one stands.
+void read_effects(const SectionReader& s, const toml::table& given, SceneDescription& scene);
 
 }  // namespace microslip::pipelines

@@ -240,6 +240,33 @@ TEST(EffectsSection, WhatOnlyNonlinearContactDoesIsRefusedWithoutIt) {
   }
 }
 
+// Which key to leave out, and where it stands: the scene or the command line has it.
+TEST(EffectsSection, TheOtherKeyIsToldWithItsPlace) {
+  EXPECT_EQ(complaint(modal, {"effects.higher_harmonics=off"}),
+            "--set effects.higher_harmonics=off: effects.higher_harmonics: \"off\" contradicts "
+            "response.harmonics; leave out response.harmonics (scene.toml:20) or "
+            "effects.higher_harmonics");
+  const std::string by_hand =
+      complaint(modal, {"effects.higher_harmonics=off", "response.harmonics=5"});
+  EXPECT_NE(by_hand.find("response.harmonics (--set response.harmonics=5) or"), std::string::npos)
+      << by_hand;
+  const std::string rough = complaint(
+      blade, {"effects.normal_motion=off", "contact.roughness={ law = \"cubic\", height = 1e-6 }"});
+  EXPECT_NE(rough.find("leave out contact.roughness (--set contact.roughness="), std::string::npos)
+      << rough;
+  const std::string lacking = complaint(modal, {"effects.wear=on"});
+  EXPECT_NE(lacking.find("needs contact.wear_coefficient; else leave out effects.wear"),
+            std::string::npos)
+      << lacking;
+}
+
+TEST(EffectsSection, HarmonicsLeftToTheProgramAreOneWhereHigherOnesAreOff) {
+  const SceneDescription scene = parse_scene(
+      modal, "scene.toml", "/nowhere", {"effects.higher_harmonics=off", "response.harmonics=auto"});
+  EXPECT_EQ(scene.settings.harmonics.highest, 1);
+  EXPECT_FALSE(scene.settings.harmonics.chosen());
+}
+
 TEST(EffectsSection, ASpeedWithoutAnAxisIsRefusedByBothNames) {
   const std::string message = complaint(blade, {"static.speed=\"3000 rpm\""});
   EXPECT_NE(message.find("static.speed"), std::string::npos) << message;
