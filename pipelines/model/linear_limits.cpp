@@ -38,11 +38,12 @@ Eigen::VectorXcd linear_response(const ReducedModel& model, const Eigen::MatrixX
   const Eigen::ArrayXcd diagonal =
       (omega.square() - frequency * frequency).cast<std::complex<double>>() +
       std::complex<double>(0.0, 2.0 * frequency) * (model.damping_ratio.array() * omega);
-  Eigen::MatrixXcd dynamic = stiffness.cast<std::complex<double>>();
-  dynamic.diagonal() += diagonal.matrix();
   Eigen::VectorXcd force(model.frequency.size());
   force.real() = model.force_sine;
   force.imag() = model.force_cosine;
+  if (stiffness.isZero(0.0)) return force.array() / diagonal;
+  Eigen::MatrixXcd dynamic = stiffness.cast<std::complex<double>>();
+  dynamic.diagonal() += diagonal.matrix();
   return contact::solved(dynamic, force);
 }
 

@@ -109,6 +109,7 @@ void Progress::stage(const std::string& name) {
   const std::lock_guard lock(mutex_);
   end_stage();
   stage_ = name;
+  part_.clear();
   stage_begin_ = Clock::now();
   expected_ = 0.0;
   has_points_ = false;
@@ -124,6 +125,11 @@ void Progress::expect(double seconds) {
   expected_ = seconds;
 }
 
+void Progress::part(const std::string& what) {
+  const std::lock_guard lock(mutex_);
+  part_ = what;
+}
+
 void Progress::start_clock() {
   if (verbosity_ == Verbosity::quiet || clock_.joinable()) return;
   try {
@@ -134,6 +140,7 @@ void Progress::start_clock() {
 
 std::string Progress::time_text(double elapsed) const {
   std::string text = fmt::format("{}  {}", stage_, duration_text(elapsed));
+  if (!part_.empty()) text += ": " + part_;
   if (fraction_ > first_guess && fraction_ < 1.0) {
     return text + ", some " + duration_text(elapsed * (1.0 - fraction_) / fraction_) + " left";
   }

@@ -53,6 +53,8 @@ class Progress {
   /// What this stage is expected to take [s]; 0: not known. While it says nothing else, a stage
   /// tells every second on a terminal, every ten elsewhere, how long it has taken and what is left.
   void expect(double seconds);
+  /// What of this stage is being done, for those lines.
+  void part(const std::string& what);
   /// A point of a curve is finished.
   /// @param fraction  of the stage that is done, 0 … 1, for the time left; below 0: not known.
   void point(const std::string& curve, const solver::ResponsePoint& point, double fraction);
@@ -99,6 +101,7 @@ class Progress {
   Clock::time_point stage_begin_ = begin_;
   Clock::time_point last_drawn_{};
   std::string stage_;
+  std::string part_;         ///< of it, in words; empty: not told
   double expected_ = 0.0;    ///< of the stage [s]; 0: not known
   bool has_points_ = false;  ///< which tell more
   double fraction_ = 0.0;    ///< of the stage, done at the last of them

@@ -74,6 +74,10 @@ StructurePointer solved_structure(const SceneDescription& scene, RunRecord& reco
 
 ReducedModel reduced_model(const SceneDescription& scene, const StructurePointer& structure,
                            RunRecord& record) {
+  if (structure) {
+    const Eigen::Index n_modes = structure->modes.basis.frequency.size();
+    record.progress().part(fmt::format("linear limits of {} modes", n_modes));
+  }
   std::vector<std::string> warnings = scene_warnings(scene);
   ReducedModel model = model_of(scene, structure.get(), warnings);
   for (const std::string& warning : warnings) record.progress().warning(warning);

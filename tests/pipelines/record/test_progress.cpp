@@ -58,6 +58,20 @@ TEST(Progress, AStageThatSaysNothingTellsWhatIsLeft) {
   EXPECT_TRUE(std::regex_search(out.str(), over)) << out.str();
 }
 
+TEST(Progress, AStageWithoutAForecastTellsWhatIsBeingDone) {
+  std::ostringstream out;
+  Progress progress(out, true, Verbosity::normal);
+  progress.stage("contact");
+  progress.part("linear limits of 900 modes");
+  std::this_thread::sleep_for(std::chrono::milliseconds(1700));
+  progress.stage("report");
+  std::this_thread::sleep_for(std::chrono::milliseconds(1700));
+  progress.finish();
+  const std::regex told("contact  [1-2] s: linear limits of 900 modes");
+  EXPECT_TRUE(std::regex_search(out.str(), told)) << out.str();
+  EXPECT_FALSE(std::regex_search(out.str(), std::regex("report  [1-2] s:"))) << out.str();
+}
+
 TEST(Progress, ACurveWhosePointsTakeLongTellsWhatIsLeft) {
   std::ostringstream out;
   Progress progress(out, true, Verbosity::normal);
