@@ -134,10 +134,12 @@ bool goes_in_time(const SceneDescription& scene) {
 /// Curves beside the two limits.
 bool asks_for_preloads(const SceneDescription& scene) {
   if (!scene.response || lacks_contact(scene)) return false;
-  const auto& preload = scene.response->preload;
-  return preload.empty() || std::ranges::any_of(preload, [](const PreloadEntry& entry) {
-           return !std::holds_alternative<LimitName>(entry);
-         });
+  return std::ranges::any_of(scene.response->preload, [](const PreloadEntry& entry) {
+    return !std::holds_alternative<LimitName>(entry);
+  });
+}
+bool asks_for_scales(const SceneDescription& scene) {
+  return scene.response && has_contact(scene) && scene.response->preload.empty();
 }
 
 bool asks_for_best_value(const SceneDescription& scene) {
@@ -178,9 +180,12 @@ constexpr std::array contradictions{
     Contradiction{"nonlinearity",
                   "off",
                   asks_for_preloads,
-                  "contradicts response.preload (or preload_scale): contact without it is one of "
-                  "the limits, response.preload = [\"free\", \"stuck\"]",
-                  {"response.preload", "response.preload_scale"}},
+                  "contradicts response.preload: contact without it is one of the limits, "
+                  "response.preload = [\"free\", \"stuck\"]",
+                  {"response.preload"}},
+    Contradiction{"nonlinearity", "off", asks_for_scales,
+                  "contradicts response.preload_scale (1 where it is not given): scenes of kinds "
+                  "modal and bar have no curves of the limits alone"},
     Contradiction{"nonlinearity",
                   "off",
                   asks_for_best_value,
