@@ -221,15 +221,20 @@ class LostPeaks {
  public:
   explicit LostPeaks(const Comparison& of) : of_(of) {}
 
+  /// This peak of the curve with the effect is that of another one without.
+  void take(const solver::PeakOfBoth& both) { taken_.push_back(both.other_frequency); }
+
   /// Of a local maximum that becomes a shoulder the amplitude at its frequency tells; of one that
   /// moves far the peak of the whole curve with the effect that none of the others is nearer to;
-  /// the smaller change counts. With neither, all that the peak has.
+  /// the smaller change counts, but of one that grows, whose flank may have the old height at the
+  /// old frequency, its own. With neither, all that the peak has.
   std::optional<solver::PeakOfBoth> found(const solver::ResponseCurve& peak) {
     constexpr double shoulder = 0.1;  // of its amplitude
     std::optional<solver::PeakOfBoth> there =
         at_its_frequency(of_.own, of_.options, *highest_peak(peak), of_.with);
-    if (there && change_of(*there) < shoulder * there->amplitude) return there;
     const std::optional<solver::PeakOfBoth> moved = of_whole_curve(*highest_peak(peak));
+    if (moved && moved->other_amplitude > (1.0 + shoulder) * moved->amplitude) return moved;
+    if (there && change_of(*there) < shoulder * there->amplitude) return there;
     return moved && (!there || change_of(*moved) < change_of(*there)) ? moved : there;
   }
 
@@ -248,11 +253,17 @@ class LostPeaks {
     if (!whole_) return std::nullopt;
     const solver::ResponsePoint& other = *nearest_peak(*whole_, own.frequency);
     if (nearest_peak(of_.curve, other.frequency)->frequency != own.frequency) return std::nullopt;
+    constexpr double same = 1e-4;  // of the frequency
+    const auto is_other = [&](double taken) {
+      return std::abs(other.frequency - taken) < same * taken;
+    };
+    if (std::ranges::any_of(taken_, is_other)) return std::nullopt;
     return pair_of(own, other);
   }
 
   const Comparison& of_;
   std::optional<solver::ResponseCurve> whole_;  // with the effect
+  std::vector<double> taken_;                   // frequencies of its peaks [rad/s]
   bool is_asked_ = false;
 };
 
@@ -282,7 +293,11 @@ Changes changes_of(const Comparison& of) {
         moved = both->other_frequency / both->frequency;
       }
     }
-    if (!both && i > 0) both = lost.found(peaks[i]);
+    if (both) {
+      lost.take(*both);
+    } else if (i > 0) {
+      both = lost.found(peaks[i]);
+    }
     if (both) {
       const double shift = both->other_frequency / both->frequency - 1.0;
       if (i == 0 && !range.is_point() && !range.has(both->other_frequency)) {

@@ -272,6 +272,23 @@ TEST(LeftOut, ALowerPeakThatMovesFarIsNotLost) {
   EXPECT_NEAR(place->effect, 0.2154 * (25.314 / 24.962 - 1.0), 1e-4);
 }
 
+// The peak at 23.43 Hz goes to 23.89 Hz and more than doubles: its flank has the old height, within
+// 6 %, at the old frequency, and is no shoulder.
+TEST(LeftOut, ALowerPeakThatMovesAndGrowsIsNoShoulder) {
+  const Study without =
+      of_three({"modal.frequency=[20, 24.228, 22.761]", "modal.force_sine=[7, -5.523, 1.917]",
+                "modal.points[0].preload=1.57", "modal.points[0].phi_u_2=0.589",
+                "modal.points[0].phi_u_3=-0.523", "modal.points[0].phi_v_1=-0.163",
+                "modal.points[0].phi_v_2=0.264", "modal.points[0].phi_w_1=0.336",
+                "modal.points[0].phi_w_2=0.613", "modal.points[0].phi_w_3=-0.555"});
+  const auto rows = rows_of(without);
+  const ErrorRow* height = found(rows, "second_direction", peak_amplitude_goal);
+  ASSERT_NE(height, nullptr);
+  // As the curves with and without have it, over the highest.
+  EXPECT_NEAR(height->effect, (7.2841 - 3.1291) / 11.979, 1e-3);
+  EXPECT_NEAR(height->where_hz, 23.427, 0.01);
+}
+
 TEST(LeftOut, APeakThatLeavesTheRangeIsToldByItsFrequency) {
   const Study without = of_point({"response.frequency=[20, 23]", "effects.second_direction=off"});
   ASSERT_EQ(highest_peak(without.curves[0].curve)->mark, solver::PointMark::peak);
