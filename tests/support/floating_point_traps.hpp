@@ -1,6 +1,7 @@
 /// @file
 /// Divisions by zero, invalid operations and overflows end the tests of contact and solver, and the
-/// hard cases that need no more than these, where they happen (SIGFPE), instead of going on as infinities and NaN.
+/// hard cases that need no more than these, where they happen (SIGFPE), instead of going on as
+/// infinities and NaN.
 #pragma once
 
 #include <cfenv>
