@@ -58,7 +58,7 @@ struct OptimumOptions {
   /// Relative: amplitudes that close are the same (PeakTraceOptions). ≥ 1e-7
   double amplitude_tolerance = 1e-7;
   int n_scan = 12;  ///< values of the first scan, ≥ 3
-  /// Where the best value is believed to be: the first scan goes outward from there.
+  /// Where the best value is believed to be: the first scan begins with the curve there alone.
   std::optional<double> believed;
   ParameterScale scale = ParameterScale::logarithmic;
   /// Of a search for solutions beside the curve (ContinuationOptions::search_starts) at the best

@@ -64,6 +64,7 @@ bool is_beside_detached(const solver::Optimum& optimum) {
 bool are_those_followed(const Values& amplitudes, const solver::Optimum& optimum) {
   constexpr double same = 0.01;   // at the best preload itself
   constexpr double nearly = 0.1;  // between values that were solved for
+  constexpr double jumped = 1.5;  // times the lowest: another peak, whose place says nothing of it
   const Peaks followed(optimum.trace);
   const double best = optimum.best.parameter;
   if (is_beside_detached(optimum)) return false;
@@ -71,8 +72,9 @@ bool are_those_followed(const Values& amplitudes, const solver::Optimum& optimum
     const double other = followed.at(neighbours[i] * best);
     const double change = amplitudes[i] / other - 1.0;
     const double allowed = i == middle ? same : nearly;
-    // The search ends where the peaks have risen: beyond they may be as high as they are.
-    const bool rises = !followed.reach(neighbours[i] * best) && change > -allowed;
+    // The search ends where the peaks have risen: beyond they may be higher.
+    const bool rises = !followed.reach(neighbours[i] * best) && change > -allowed &&
+                       amplitudes[i] < jumped * amplitudes[middle];
     if (!rises && !(std::abs(change) < allowed)) return false;
   }
   return true;

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <numeric>
 #include <utility>
 #include <vector>
 
 #include "solver/balance/first_harmonics.hpp"
 #include "solver/balance/period_energy.hpp"
-#include "solver/enrichment/enrichment.hpp"
+#include "solver/enrichment/carried_peak.hpp"
 #include "solver/enrichment/level_point.hpp"
 #include "solver/peak/high_points.hpp"
 
@@ -30,30 +29,6 @@ ContinuationOptions widened(ContinuationOptions range) {
   (forward ? range.frequency_begin : range.frequency_end) *= 1.0 - beyond;
   (forward ? range.frequency_end : range.frequency_begin) *= 1.0 + beyond;
   return range;
-}
-
-/// A peak and the harmonics it has.
-struct CarriedPeak {
-  LocalPeak peak;
-  HarmonicSet set;
-  int highest;
-};
-
-/// To all harmonics up to `highest`, in halves where the way is too long for Newton's method.
-std::optional<CarriedPeak> carried_to(const Scene& scene, const ContinuationOptions& range,
-                                      const CarriedPeak& from, int highest) {
-  const HarmonicSet set = from.set.united(HarmonicSet(highest).orders());
-  const HarmonicBalance coarse(scene, from.set);
-  HarmonicBalance richer(scene, set);
-  PeakWork work;
-  const LocalPeak start = embedded(from.peak, coarse, richer);
-  if (auto peak = level_point(richer, start, range, work, farthest)) {
-    return CarriedPeak{std::move(*peak), set, highest};
-  }
-  const int between = std::midpoint(from.highest, highest);
-  if (between == from.highest) return std::nullopt;
-  const std::optional<CarriedPeak> half = carried_to(scene, range, from, between);
-  return half ? carried_to(scene, range, *half, highest) : std::nullopt;
 }
 
 /// The highest point of a curve, as it was written and with what others start from.
@@ -141,17 +116,18 @@ std::optional<RicherPeak> richer_peak(const Scene& scene, const ContinuationOpti
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
   RicherPeak result{top->point.frequency, top->point.amplitude, std::nullopt, highest};
-  const std::optional<CarriedPeak> carried =
-      carried_to(scene, widened(range), {top->peak, coarse.set(), coarse.set().highest()}, highest);
+  const HarmonicSet all = coarse.set().united(HarmonicSet(highest).orders());
+  PeakWork work;
+  const std::optional<LocalPeak> found =
+      carried_peak(scene, widened(range), top->peak, coarse.set(), all, work);
   result.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-  if (!carried) return result;
-  const LocalPeak& found = carried->peak;
-  result.frequency = found.point.parameter;
-  result.amplitude = found.amplitude;
-  HarmonicBalance richer(scene, carried->set);
-  result.dissipated_energy = energy_of(richer, found);
-  if (found.amplitude > 0.0) {
-    result.change = (found.amplitude - top->point.amplitude) / found.amplitude;
+  if (!found) return result;
+  result.frequency = found->point.parameter;
+  result.amplitude = found->amplitude;
+  HarmonicBalance richer(scene, all);
+  result.dissipated_energy = energy_of(richer, *found);
+  if (found->amplitude > 0.0) {
+    result.change = (found->amplitude - top->point.amplitude) / found->amplitude;
   }
   return result;
 }

@@ -423,14 +423,11 @@ void PeakFamilies::follow_values(std::size_t family, double from, double directi
   for (int i = 0; i < options_.n_values; ++i) {
     const double target = value_position(direction > 0.0 ? i : options_.n_values - 1 - i);
     if ((target - from) * direction <= 0.0) continue;
-    if (target < first_ || target > last_) return;
     Peaks& peaks = families_[family].peaks;
     if (!follow_to(families_[family], target)) {
       const auto last = direction > 0.0 ? std::prev(peaks.end()) : peaks.begin();
       const double before = target - direction * spacing_;
       if (last->second.amplitude < of_interest * highest_at(before).amplitude) return;
-      stop_at_rim(peaks, target, direction);
-      if (target == first_ || target == last_) return;
       if (!curves_.contains(target)) {
         note("a peak was lost (vanished, jumped or left the range), curve traced whole", target);
         pending_.insert(target);
@@ -442,17 +439,7 @@ void PeakFamilies::follow_values(std::size_t family, double from, double directi
     const bool contradicted =
         curve != curves_.end() && curve->second.traced.complete && !agrees(peaks, target);
     if (contradicted && cut(families_[family], target)) return;
-    stop_at_rim(peaks, target, direction);
   }
-}
-
-/// Nothing beyond a value is followed where a peak there is above the rim of its valley.
-void PeakFamilies::stop_at_rim(const Peaks& peaks, double position, double direction) {
-  const LocalPeak* there = highest_followed(position);
-  if (!options_.only_check || there == nullptr) return;
-  double lowest = std::numeric_limits<double>::infinity();
-  for (const auto& [at, peak] : peaks) lowest = std::min(lowest, highest_followed(at)->amplitude);
-  if (there->amplitude > options_.rim * lowest) (direction > 0.0 ? last_ : first_) = position;
 }
 
 void PeakFamilies::seed(double position, int search_starts) {
@@ -501,16 +488,13 @@ void PeakFamilies::settle() {
 
 void PeakFamilies::trace() {
   const int last = options_.n_values - 1;
-  const bool outward = options_.only_check && std::isfinite(options_.rim);
-  for (int i = 0; i <= last && !outward; ++i) asked_.insert(value_position(i));
+  for (int i = 0; i <= last; ++i) asked_.insert(value_position(i));
   const std::vector<double> checks = check_positions();
   trace_ahead(checks, 0);
   for (const double check : checks) seed(check);
   settle();
   for (int i = 0; i <= last; ++i) {
     const double here = value_position(i);
-    if (here < first_ || here > last_) continue;
-    asked_.insert(here);
     if (!needs_curve(here)) continue;
     seed(here);
     settle();
@@ -562,6 +546,18 @@ PeakOfParameter PeakFamilies::highest(double parameter) {
   PeakOfParameter best = highest_at(here);
   best.parameter = parameter;
   return best;
+}
+
+std::vector<PeakFamilies::FamilyPeak> PeakFamilies::followed_to(double parameter) const {
+  const double here = known_position(parameter);
+  std::vector<FamilyPeak> found;
+  for (std::size_t i = 0; i < families_.size(); ++i) {
+    const auto peak = families_[i].peaks.find(here);
+    if (peak != families_[i].peaks.end()) found.push_back({i, peak->second});
+  }
+  std::ranges::stable_sort(found, std::ranges::greater{},
+                           [](const FamilyPeak& one) { return one.peak.amplitude; });
+  return found;
 }
 
 bool PeakFamilies::confirm(double parameter, int search_starts) {

@@ -66,9 +66,6 @@ struct PeakTraceOptions {
   int n_checks = 4;    ///< whole curves, spread evenly, both bounds included, ≥ 2
   /// In their place: one whole curve, at the value nearest to this, between the bounds.
   std::optional<double> only_check;
-  /// Times the lowest amplitude: with `only_check` values beyond the first that is higher, on
-  /// either side, are left out.
-  double rim = std::numeric_limits<double>::infinity();
   ParameterScale scale = ParameterScale::logarithmic;
   /// Relative: amplitudes that close are the same. Above rounding, a peak that is as high as the
   /// highest of a curve need not be that peak, and what is lower than it is dropped without a word.
@@ -102,6 +99,13 @@ class PeakFamilies {
   /// The highest of peaks and ends at any value between the bounds, followed from the nearest
   /// values; +∞ amplitude where no solution is known.
   [[nodiscard]] PeakOfParameter highest(double parameter);
+  /// A peak that is followed, with the number of its family.
+  struct FamilyPeak {
+    std::size_t family;
+    LocalPeak peak;
+  };
+  /// Those that highest() has reached at a value, from the highest down.
+  [[nodiscard]] std::vector<FamilyPeak> followed_to(double parameter) const;
   /// Traces the curve at a value whole. True: it confirms what highest() says there; else the peaks
   /// missing are followed from here on.
   /// @param search_starts  of a search for detached branches there,
@@ -117,6 +121,7 @@ class PeakFamilies {
   [[nodiscard]] PeakTrace result() const;
   /// Of the harmonics that all peaks have; empty: those of the scene.
   [[nodiscard]] const std::vector<int>& orders() const { return range_.orders; }
+  [[nodiscard]] const ContinuationOptions& range() const { return range_; }
 
  private:
   using Peaks = std::map<double, LocalPeak>;  // by position
@@ -158,7 +163,6 @@ class PeakFamilies {
   const Curve& curve_at(double position, int search_starts);
   void seed(double position, int search_starts = 0);
   void settle();
-  void stop_at_rim(const Peaks& peaks, double position, double direction);
   void follow_values(std::size_t family, double from, double direction);
   [[nodiscard]] long curve_cost() const;
   bool follow_to(Followed& family, double target) const;
@@ -182,8 +186,6 @@ class PeakFamilies {
   ContinuationOptions range_;     ///< with the harmonics that all peaks have
   PeakTraceOptions options_;
   double spacing_;
-  double first_ = -std::numeric_limits<double>::infinity();  ///< positions that are followed to
-  double last_ = std::numeric_limits<double>::infinity();
   std::vector<Followed> families_;
   std::map<double, Curve> curves_;
   /// Traced ahead of what asks for them: by position and number of starts of their search.

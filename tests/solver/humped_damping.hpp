@@ -13,7 +13,8 @@ namespace microslip::tests {
 /// Damping that depends on the amplitude, G = d(S) (−x_c, x_s) with S = x_s² + x_c² and
 /// d = 0.1 + exp(−(S − 4)²): with F = 0.5 and ω₀ = 1
 ///   (1 − ω²)² = F²/S − d²
-/// has solutions for small S, on the curve, and again between S = 5.5 and 25: an isola.
+/// has solutions for small S, on the curve, and again between S = 5.5 and 25: an isola. Higher
+/// harmonics stay zero.
 class HumpedDamping final : public FullForce {
  public:
   HumpedDamping() : FullForce(1) {}
@@ -33,12 +34,13 @@ class HumpedDamping final : public FullForce {
     const double d = damping(square);
     const double slope = -2.0 * (square - 4.0) * (d - 0.1);
     contact::ForceAndJacobian result;
-    result.force = contact::Harmonics(1, 1);
-    result.force.vector() << 0.0, -d * c, d * s;
-    result.jacobian = Eigen::MatrixXd::Zero(3, 3);
-    result.jacobian.bottomRightCorner(2, 2) << -2.0 * s * c * slope, -d - 2.0 * c * c * slope,
+    result.force = contact::Harmonics(q.n_harmonics(), 1);
+    result.force.vector().segment(1, 2) << -d * c, d * s;
+    const Eigen::Index size = q.rows().rows();
+    result.jacobian = Eigen::MatrixXd::Zero(size, size);
+    result.jacobian.block(1, 1, 2, 2) << -2.0 * s * c * slope, -d - 2.0 * c * c * slope,
         d + 2.0 * s * s * slope, 2.0 * s * c * slope;
-    result.frequency_derivative = Eigen::VectorXd::Zero(3);
+    result.frequency_derivative = Eigen::VectorXd::Zero(size);
     return result;
   }
 };

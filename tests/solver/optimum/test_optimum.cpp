@@ -221,6 +221,34 @@ TEST(MinimisePeak, CountsSolutionsBesideTheCurveAtTheBestValueUnasked) {
   EXPECT_LT(minimise_peak(family, frequency_range(0.6, 1.4), options).best.amplitude, 2.0);
 }
 
+TEST(MinimisePeak, GoesOnLookingBesideCurvesWhereFewHarmonicsHaveFoundABranch) {
+  // The isola exists from the least F = d(S) √S beyond the hump. On the curve alone the peak, some
+  // 1.5, is lowest at 1.6; with the isola it is lowest just before that begins, and stands on the
+  // curve.
+  double begins = std::numeric_limits<double>::infinity();
+  for (double square = 4.0; square < 10.0; square += 1e-3) {
+    begins = std::min(begins, tests::HumpedDamping::damping(square) * std::sqrt(square) / 0.2);
+  }
+  const auto family = [](double p) {
+    Scene scene = tests::isola_scene(0.2 * p);
+    scene.output *= 1.0 + 4.0 * (p - 1.6) * (p - 1.6);
+    return scene;
+  };
+  OptimumOptions options = preloads(1.0, 2.2);
+  options.relative_tolerance = 5e-3;
+  options.amplitude_tolerance = 3e-3;
+  options.search_starts = 8;
+  ContinuationOptions five = frequency_range(0.6, 1.4);
+  five.n_harmonics = 5;
+  const Optimum best = minimise_peak(family, five, options);
+  EXPECT_TRUE(best.found) << best.message;
+  EXPECT_FALSE(best.best.detached);
+  // The search leaves four tolerances of its bracket.
+  EXPECT_NEAR(best.best.parameter, begins, 4.0 * options.relative_tolerance * begins);
+  EXPECT_LE(best.best.parameter, begins);
+  EXPECT_GT(best.trace.back().amplitude, 3.0);  // of the isola
+}
+
 /// A contact that nobody knows above a frequency.
 class KnownBelow final : public tests::FullForce {
  public:
@@ -375,6 +403,59 @@ TEST(MinimisePeak, WithChosenHarmonicsIsThatOfMany) {
   EXPECT_TRUE(optimum.found) << optimum.message;
   EXPECT_NEAR(optimum.best.amplitude, reference.best.amplitude,
               chosen.harmonic_tolerance * reference.best.amplitude);
+}
+
+/// As meshed scenes search.
+OptimumOptions coarse(OptimumOptions options) {
+  options.relative_tolerance = 5e-3;
+  options.amplitude_tolerance = 3e-3;
+  return options;
+}
+
+double highest_with(const Scene& scene, const ContinuationOptions& options) {
+  double highest = 0.0;
+  for (const auto& point : trace_response(scene, options).points) {
+    highest = std::max(highest, point.amplitude);
+  }
+  return highest;
+}
+
+TEST(MinimisePeak, OfPeaksCorrectedFromFewHarmonicsIsThatOfMany) {
+  // The peak over the preload has a smooth minimum, and one where a peak vanishes.
+  struct Case {
+    SceneFamily family;
+    ContinuationOptions range;
+    OptimumOptions options;
+  };
+  const auto rubbing_events = [](double preload) {
+    Scene scene = rubbing(preload);
+    tests::use_event_cycles(scene);
+    return scene;
+  };
+  ContinuationOptions single = range();
+  single.n_harmonics = 9;
+  for (const Case& one : {Case{rubbing_events, single, preloads(0.1, 100.0)},
+                          Case{of_three_masses, nine_harmonics(), preloads(20.0, 400.0)}}) {
+    OptimumOptions exact = one.options;
+    exact.search_starts = 0;
+    const Optimum reference = minimise_peak(one.family, one.range, exact);
+    const Optimum optimum = minimise_peak(one.family, one.range, coarse(one.options));
+    std::printf("%.4g, %.4g m in %ld evaluations; searched to rounding %.4g, %.4g m in %ld\n",
+                optimum.best.parameter, optimum.best.amplitude, optimum.contact_evaluations,
+                reference.best.parameter, reference.best.amplitude, reference.contact_evaluations);
+    ASSERT_TRUE(reference.found) << reference.message;
+    EXPECT_TRUE(optimum.found) << optimum.message;
+    EXPECT_TRUE(optimum.best.whole_curve);
+    EXPECT_NEAR(optimum.best.amplitude, reference.best.amplitude, 5e-3 * reference.best.amplitude);
+    EXPECT_NEAR(optimum.best.amplitude, highest_with(one.family(optimum.best.parameter), one.range),
+                1e-7 * optimum.best.amplitude);
+    for (const PeakOfParameter& peak : optimum.trace) {
+      // A branch beside the curve may be higher.
+      EXPECT_GT(peak.amplitude, 0.98 * highest_with(one.family(peak.parameter), one.range))
+          << peak.parameter;
+      EXPECT_GE(peak.amplitude, optimum.best.amplitude);
+    }
+  }
 }
 
 TEST(MinimisePeak, StopsWithWhatThereIs) {
