@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -48,6 +49,8 @@ struct Optimum {
   long iterations = 0;
   long contact_evaluations = 0;
   double seconds = 0.0;
+  /// What few harmonics have found first; nullptr: it was searched with as few, or stopped before.
+  std::shared_ptr<const Optimum> by_few;
 };
 
 struct OptimumOptions {

@@ -64,7 +64,7 @@ bool is_beside_detached(const solver::Optimum& optimum) {
 bool are_those_followed(const Values& amplitudes, const solver::Optimum& optimum) {
   constexpr double same = 0.01;   // at the best preload itself
   constexpr double nearly = 0.1;  // between values that were solved for
-  constexpr double jumped = 1.5;  // times the lowest: another peak, whose place says nothing of it
+  constexpr double jumped = 2.0;  // times the lowest: another peak, whose place says nothing of it
   const Peaks followed(optimum.trace);
   const double best = optimum.best.parameter;
   if (is_beside_detached(optimum)) return false;

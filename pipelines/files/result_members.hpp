@@ -65,7 +65,8 @@ auto members(Is<PeakOfParameter> auto& value) {
 }
 auto members(Is<Optimum> auto& value) {
   auto& [best, trace, found, flat, reason, objection, message, notes, warnings, orders, n_curves,
-         iterations, evaluations, seconds] = value;
+         iterations, evaluations, seconds, by_few] = value;
+  static_cast<void>(by_few);  // for the bracket of the same run, which is kept itself
   return std::tie(best, trace, found, flat, reason, objection, message, notes, warnings, orders,
                   n_curves, iterations, evaluations, seconds);
 }

@@ -24,6 +24,8 @@ namespace {
 // How the best value moves is told by few, beside one another.
 constexpr int few_harmonics = 3;
 
+constexpr const char* friction = "friction_coefficient";  // of the bracket
+
 /// Bodies with patches err by their meshes, which shows as some per cent of a peak that is level
 /// over as much: their searches may end sooner. Points of bars,
 /// chains and modal scenes are searched to the end.
@@ -139,6 +141,7 @@ std::string OptimumSearch::warning() const {
 
 solver::Optimum OptimumSearch::best() {
   solver::Optimum optimum = search({}, jobs_);
+  by_few_ = optimum.by_few;
   if (const std::string text = warning(); !text.empty()) {
     optimum.notes.insert(optimum.notes.begin(), text);
   }
@@ -214,20 +217,30 @@ std::vector<OptimumSearch::Change> OptimumSearch::changes(OptimumBracket& bracke
     if (!obstacle.empty()) bracket.left_out.push_back(fmt::format("{}: {}", parameter, obstacle));
     return obstacle.empty();
   };
-  constexpr const char* friction = "friction_coefficient";
   constexpr const char* stiffness = "contact_stiffness";
   const bool friction_varies = varies(friction, "friction", no_friction_factor(model_));
   const bool stiffness_varies =
       varies(stiffness, "_stiffness", no_stiffness_factor(model_, scene_));
   std::vector<Change> list;
-  const bool by_few = bracket_by_few();
-  const int n = by_few ? few_harmonics : 0;
-  if (by_few && friction_varies) list.push_back({friction, 1.0, {1.0, 1.0, n}});
+  const int n = bracket_by_few() ? few_harmonics : 0;
   for (const double factor : {0.5, 2.0}) {
     if (friction_varies) list.push_back({friction, factor, {factor, 1.0, n}});
     if (stiffness_varies) list.push_back({stiffness, factor, {1.0, factor, n}});
   }
   return list;
+}
+
+void OptimumSearch::complete(OptimumBracket& bracket) {
+  const bool varies = std::ranges::any_of(bracket.entries, [](const OptimumOfFactor& entry) {
+    return std::string_view(entry.parameter) == friction;
+  });
+  if (!bracket_by_few() || !varies || cut_short()) return;
+  const Factors as_given{1.0, 1.0, few_harmonics};
+  solver::Optimum optimum = by_few_ ? *by_few_ : search(as_given, jobs_);
+  if (by_few_) tell_remedy(remedy_of(optimum.reason), optimum);
+  bracket.entries.insert(
+      bracket.entries.begin(),
+      {friction, 1.0, std::move(optimum), {options_.lower, options_.upper}, false, few_harmonics});
 }
 
 bool OptimumSearch::bracket_by_few() const { return ends_sooner(scene_); }

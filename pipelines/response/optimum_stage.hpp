@@ -38,11 +38,13 @@ class OptimumSearch {
   /// Searched again with friction coefficient and local contact stiffness × 0.5 and × 2
   /// (contact_factors.hpp), as far as the contact has them as numbers and they are not what is
   /// searched. Friction moves the best preload: the range is widened by as much, and the entry says
-  /// so. Of more than three harmonics with three, and once with both as they are, which is what the
-  /// others are to be compared with.
+  /// so. Of more than three harmonics with three: complete() adds what those are to be compared
+  /// with.
   /// @param jobs  searches side by side; of another number than the preload one, whatever is asked
   ///              for. Of the preload it may run beside best().
   [[nodiscard]] OptimumBracket bracket(int jobs);
+  /// Adds what few harmonics say of both as they are: that best() has begun with, or searched.
+  void complete(OptimumBracket& bracket);
   /// Whether its searches have fewer harmonics than best(),
   /// which then takes longer than all of them.
   [[nodiscard]] bool bracket_by_few() const;
@@ -74,6 +76,7 @@ class OptimumSearch {
   ModelFamily family_;
   int jobs_;
   solver::OptimumOptions options_;
+  std::shared_ptr<const solver::Optimum> by_few_;  // of best()
 };
 
 }  // namespace microslip::pipelines

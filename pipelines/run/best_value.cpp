@@ -90,19 +90,21 @@ void draw_maps_and_find_best_value(const Solution& solution, const RunOptions& o
   if (beside && lacks_bracket && search.bracket_by_few()) {
     tasks.emplace_back([&] { found.bracket = search.bracket(options.jobs - 1); });
   }
-  if (is_new) tasks.insert(tasks.begin(), [&] { found.optimum = search.best(); });
-  const std::vector<std::exception_ptr> failures = run_all(tasks);
-  if (is_new) {
-    if (failures.front()) std::rethrow_exception(failures.front());
+  const auto find_best = [&] {
+    found.optimum = search.best();
     // What the search has found is kept though maps or bracket have failed.
     record.note_optimum(solution.model, *scene.response->optimum, found.optimum, found.budget);
     tell_trust(solution, search, options.jobs, beside, found);
-  }
+  };
+  if (is_new) tasks.insert(tasks.begin(), find_best);
+  const std::vector<std::exception_ptr> failures = run_all(tasks);
+  if (is_new && failures.front()) std::rethrow_exception(failures.front());
   record.keep_optimum(solution.model, *scene.response->optimum, found.optimum, found.budget);
   rethrow_first(failures);
   if (options.bracket && !found.bracket && !cut_short()) {
     found.bracket = search.bracket(options.jobs);
   }
+  if (lacks_bracket && found.bracket) search.complete(*found.bracket);
   if (is_new || lacks_bracket) kept.keep(found);
   if (options.bracket && found.bracket) record.keep_bracket(std::move(*found.bracket));
 }

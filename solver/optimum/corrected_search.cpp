@@ -6,6 +6,7 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -90,7 +91,7 @@ class Correction {
   double settled(double believed) {
     solve({believed - step(), believed, believed + step()});
     while (values_.size() < most_values && n_curves_ < most_curves) {
-      const double best = lowest_value();
+      const double best = robust_value();
       const std::vector<double> open = open_beside(best);
       if (!open.empty()) {
         solve(open);
@@ -146,6 +147,22 @@ class Correction {
 
   [[nodiscard]] bool is_solved(double position, double tolerance) const {
     return std::abs(nearest(position) - position) <= on_scale(options_, tolerance);
+  }
+
+  /// Of values that are as low as the lowest, within the tolerance, the one in the middle of what
+  /// is as good: at the edge of a steep flank a little changes much.
+  double robust_value() {
+    const double lowest = lowest_value();
+    const double low = edge_beside(lowest, -1.0).value_or(position(options_.lower));
+    const double high = edge_beside(lowest, 1.0).value_or(position(options_.upper));
+    const double limit = (1.0 + options_.amplitude_tolerance) * amplitude(lowest);
+    double best = lowest;
+    for (const auto& [at, value] : values_) {
+      const bool nearer =
+          std::abs(at - std::midpoint(low, high)) < std::abs(best - std::midpoint(low, high));
+      if (value.highest.amplitude <= limit && at >= low && at <= high && nearer) best = at;
+    }
+    return best;
   }
 
   [[nodiscard]] double lowest_value() const {

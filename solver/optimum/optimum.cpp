@@ -84,6 +84,12 @@ void add_work(Optimum& sum, const PeakWork& work) {
   sum.contact_evaluations += work.contact_evaluations;
 }
 
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
 bool is_one_frequency(const ContinuationOptions& range) {
   return range.frequency_begin == range.frequency_end;
 }
@@ -155,11 +161,14 @@ class SearchByFewFirst {
         few_(peaks_to_search(family, few_harmonics(), few_options())) {}
 
   Optimum run() {
+    const Clock::time_point begin = Clock::now();
     first_ = search_followed(few_, few_options(), is_one_frequency(range_));
+    first_.seconds = seconds_since(begin);
     if (is_stopped(first_)) return first_;
     Optimum result = first_.found ? about_first() : everywhere();
     add_work(result, first_);
     add_work(result, work_);
+    result.by_few = std::make_shared<const Optimum>(std::move(first_));
     return result;
   }
 
@@ -255,12 +264,11 @@ Optimum minimise_peak(const SceneFamily& family, const ContinuationOptions& give
   check(options);
   ContinuationOptions range = given;
   range.judge_stability = false;
-  using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
   const bool many = range.harmonic_tolerance > 0.0 || range.n_harmonics > few;
   Optimum optimum = many ? SearchByFewFirst(family, range, options).run()
                          : by_following(family, range, options).optimum;
-  optimum.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  optimum.seconds = seconds_since(begin);
   return optimum;
 }
 

@@ -73,7 +73,12 @@ Found search(const SceneDescription& scene, bool with_bracket = true, int jobs =
   OptimumSearch search(model, scene, nullptr, jobs);
   solver::Optimum best = search.best();
   if (std::string text = search.left_out(best); !text.empty()) best.warnings.push_back(text);
-  return {std::move(best), with_bracket ? search.bracket(jobs) : OptimumBracket{}};
+  OptimumBracket bracket;
+  if (with_bracket) {
+    bracket = search.bracket(jobs);
+    search.complete(bracket);
+  }
+  return {std::move(best), std::move(bracket)};
 }
 
 const solver::Optimum& entry(const Found& found, const std::string& parameter, double factor) {
