@@ -32,8 +32,9 @@ constexpr std::size_t most_values = 20;
 constexpr int most_curves = 7;
 constexpr int scan = 16;                 // over all values
 constexpr int scan_between = 4;          // two that are solved for
-constexpr double step_of_scale = 0.06;   // to a neighbour, on the logarithmic scale
+constexpr double step_of_scale = 0.06;   // of first neighbours, on the logarithmic scale
 constexpr double step_of_span = 0.02;    // on the linear one
+constexpr double close_by = 1.0 / 3.0;   // of a step: to a neighbour of the best value
 constexpr double edge_tolerance = 1e-2;  // of the scale: an interval is told, not a number
 
 using FamilyPeaks = std::map<std::size_t, LocalPeak>;
@@ -115,11 +116,8 @@ class Correction {
       const std::optional<double> edge = edge_beside(best, direction);
       const bool asks = edge && !curves_alone_;  // a curve is too dear for an interval
       if (asks && !is_solved(*edge, edge_tolerance)) open.push_back(*edge);
-      const bool is_between = std::ranges::any_of(values_, [&](const auto& value) {
-        const double way = (value.first - best) * direction / step();
-        return way > 0.4 && way < 1.7;
-      });
-      if (!is_between) open.push_back(best + direction * step());
+      const double way = direction * (curves_alone_ ? 0.5 : close_by) * step();
+      if (!is_solved_beyond(best, way)) open.push_back(best + way);
     }
     return open;
   }
@@ -147,6 +145,14 @@ class Correction {
 
   [[nodiscard]] bool is_solved(double position, double tolerance) const {
     return std::abs(nearest(position) - position) <= on_scale(options_, tolerance);
+  }
+
+  /// At about a way from the best value: of its own kink a peak with few harmonics knows nothing.
+  [[nodiscard]] bool is_solved_beyond(double best, double way) const {
+    return std::ranges::any_of(values_, [&](const auto& value) {
+      const double share = (value.first - best) / way;
+      return share > 0.4 && share < 1.7;
+    });
   }
 
   /// Of values that are as low as the lowest, within the tolerance, the one in the middle of what
