@@ -28,14 +28,17 @@ namespace {
 constexpr std::size_t most_peaks = 3;  // carried at a value
 // Times the highest with few harmonics: what is lower cannot be the highest.
 constexpr double may_be_highest = 0.7;
-constexpr std::size_t most_values = 20;
-constexpr int most_curves = 7;
-constexpr int scan = 16;                 // over all values
-constexpr int scan_between = 4;          // two that are solved for
-constexpr double step_of_scale = 0.06;   // of first neighbours, on the logarithmic scale
-constexpr double step_of_span = 0.02;    // on the linear one
-constexpr double close_by = 1.0 / 3.0;   // of a step: to a neighbour of the best value
-constexpr double edge_tolerance = 1e-2;  // of the scale: an interval is told, not a number
+constexpr std::size_t most_values = 24;
+constexpr int most_curves = 9;
+constexpr int most_refuted =
+    2;                    // values, by their curves, before no peak that is carried is believed
+constexpr int scan = 16;  // over all values
+constexpr int scan_between = 4;             // two that are solved for
+constexpr double step_of_scale = 0.06;      // of first neighbours, on the logarithmic scale
+constexpr double step_of_span = 0.02;       // on the linear one
+constexpr double farthest_neighbour = 1.7;  // steps
+constexpr double worth_a_curve = 0.01;      // of the amplitude
+constexpr double edge_tolerance = 1e-2;     // of the scale: an interval is told, not a number
 
 using FamilyPeaks = std::map<std::size_t, LocalPeak>;
 
@@ -97,12 +100,35 @@ class Correction {
       if (!open.empty()) {
         solve(open);
       } else if (values_.at(best).top) {
-        return best;
-      } else if (!agrees_with_curve(best)) {
-        trust_curves_alone();
+        return proved(best);
+      } else if (!is_raised(best) && !agrees_with_curve(best)) {
+        if (++n_refuted_ > most_refuted) trust_curves_alone();
+        for (const double direction : {-1.0, 1.0}) spread(best, direction);
       }
     }
     throw NeedsOtherSearch{};
+  }
+
+  /// A value is solved again from what its neighbours are by now. @return  whether it has become
+  /// higher.
+  bool is_raised(double position) {
+    const double before = amplitude(position);
+    solve({position});
+    return amplitude(position) > (1.0 + options_.amplitude_tolerance) * before;
+  }
+
+  /// What a curve has told of a value is followed to its neighbours, as far as it raises them.
+  void spread(double position, double direction) {
+    for (auto next = neighbour(position, direction); next; next = neighbour(*next, direction)) {
+      if (values_.at(*next).top || !is_raised(*next)) return;
+    }
+  }
+
+  /// Beside the best value a peak may be higher than is known.
+  [[nodiscard]] double proved(double best) const {
+    const PeakOfParameter& highest = values_.at(best).highest;
+    if (!highest.whole_curve || highest.place == PeakPlace::unsolved) throw NeedsOtherSearch{};
+    return best;
   }
 
   /// Where to solve for a value next: at the minimum, beside it, at the edges of its valley.
@@ -116,8 +142,7 @@ class Correction {
       const std::optional<double> edge = edge_beside(best, direction);
       const bool asks = edge && !curves_alone_;  // a curve is too dear for an interval
       if (asks && !is_solved(*edge, edge_tolerance)) open.push_back(*edge);
-      const double way = direction * (curves_alone_ ? 0.5 : close_by) * step();
-      if (!is_solved_beyond(best, way)) open.push_back(best + way);
+      if (const auto beside = open_neighbour(best, direction)) open.push_back(*beside);
     }
     return open;
   }
@@ -147,12 +172,36 @@ class Correction {
     return std::abs(nearest(position) - position) <= on_scale(options_, tolerance);
   }
 
-  /// At about a way from the best value: of its own kink a peak with few harmonics knows nothing.
-  [[nodiscard]] bool is_solved_beyond(double best, double way) const {
-    return std::ranges::any_of(values_, [&](const auto& value) {
-      const double share = (value.first - best) / way;
-      return share > 0.4 && share < 1.7;
-    });
+  /// Of a kink, or a jump, of their own the peaks with few harmonics know nothing: as the amplitude
+  /// falls from the other side to the best value it may go on falling nearly to the neighbour. The
+  /// middle of that way, where so much is to be gained.
+  [[nodiscard]] std::optional<double> open_neighbour(double best, double direction) const {
+    const double gain = curves_alone_ ? worth_a_curve : 2.0 * options_.amplitude_tolerance;
+    const std::optional<double> there = neighbour(best, direction);
+    const std::optional<double> opposite = neighbour(best, -direction);
+    if (!there || std::abs(*there - best) > farthest_neighbour * step()) {
+      return best + direction * step();
+    }
+    if (!opposite) return std::nullopt;
+    const auto log_amplitude = [&](double at) {
+      return std::log(values_.at(at).highest.amplitude);
+    };
+    const double fall =
+        (log_amplitude(*opposite) - log_amplitude(best)) / std::abs(*opposite - best);
+    const double way = std::abs(*there - best);
+    const bool is_open =
+        fall * way > gain && way > 2.0 * on_scale(options_, options_.relative_tolerance);
+    return is_open ? std::optional(std::midpoint(best, *there)) : std::nullopt;
+  }
+
+  /// The next value that is solved for.
+  [[nodiscard]] std::optional<double> neighbour(double best, double direction) const {
+    const auto here = values_.find(best);
+    if (direction > 0.0) {
+      const auto after = std::next(here);
+      return after != values_.end() ? std::optional(after->first) : std::nullopt;
+    }
+    return here != values_.begin() ? std::optional(std::prev(here)->first) : std::nullopt;
   }
 
   /// Of values that are as low as the lowest, within the tolerance, the one in the middle of what
@@ -180,7 +229,10 @@ class Correction {
   /// Peaks at values are carried to all harmonics, several values side by side.
   void solve(const std::vector<double>& positions) {
     std::vector<Value> fresh(positions.size());
-    for (std::size_t i = 0; i < positions.size(); ++i) fresh[i].few = high_peaks(positions[i]);
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      const auto known = values_.find(positions[i]);
+      fresh[i].few = known != values_.end() ? known->second.few : high_peaks(positions[i]);
+    }
     options_.together(positions.size(), [&](std::size_t i) {
       if (curves_alone_ || !carry(positions[i], fresh[i])) trace(positions[i], fresh[i]);
     });
@@ -234,7 +286,7 @@ class Correction {
 
   /// The highest point of the whole curve stands for the highest peak with few harmonics, unless
   /// one that was carried is higher: it stands on a branch beside the curve, and counts. An
-  /// amplitude of zero: the curve has no solved peak, or not all of it was traced.
+  /// amplitude of zero: nothing was solved.
   void trace(double position, Value& value) const {
     const Scene scene = family_(parameter(position));
     const ResponseCurve curve = trace_response(scene, range_with_starts(), until_stopped(range_));
@@ -242,15 +294,15 @@ class Correction {
     value.work.contact_evaluations += curve.contact_evaluations;
     ++value.n_curves;
     const PeakOfParameter carried = std::exchange(value.highest, {parameter(position)});
-    if (!curve.complete) return;
     const std::vector<HighPoint> high = high_points(scene, curve, range_);
-    if (high.empty() || high.front().place == PeakPlace::unsolved) return;
+    if (high.empty()) return;
     const HighPoint& top = high.front();
     value.top = top.point;
-    value.highest.whole_curve = true;
+    value.highest.whole_curve = curve.complete;
     if (carried.amplitude > (1.0 + options_.amplitude_tolerance) * top.point.amplitude) {
       value.highest = carried;
-      value.highest.whole_curve = value.highest.detached = true;
+      value.highest.whole_curve = curve.complete;
+      value.highest.detached = true;
       return;
     }
     value.highest.amplitude = top.point.amplitude;
@@ -260,6 +312,11 @@ class Correction {
     const auto highest_of_few = highest(value.few);
     value.correction[highest_of_few->first] =
         std::log(value.highest.amplitude / highest_of_few->second.amplitude);
+    if (top.place != PeakPlace::peak) return;
+    HarmonicBalance balance(scene, first_harmonics(scene, range_));
+    if (auto peak = local_peak(balance, top.point)) {
+      value.all.insert_or_assign(highest_of_few->first, std::move(*peak));
+    }
   }
 
   /// Solutions beside the curve are looked for as well where few harmonics have found some.
@@ -279,16 +336,18 @@ class Correction {
     return traced <= (1.0 + options_.amplitude_tolerance) * carried;
   }
 
-  /// From what it is at the nearest value, moved as it moves with few harmonics; else from few.
+  /// From what it is at the next values on both sides, moved as it moves with few harmonics, the
+  /// higher one: the top of a peak may be several. Else from few.
   [[nodiscard]] std::optional<LocalPeak> carried(const Scene& scene, double position,
                                                  std::size_t family, const LocalPeak& peak,
                                                  PeakWork& work) const {
     constexpr double farthest = 1.0;  // amplitudes or widths along the branch
     const HarmonicSet from = first_harmonics(scene, few_.range());
     const HarmonicSet to = first_harmonics(scene, range_);
-    if (const Value* known = nearest_with(family, position)) {
-      const HarmonicBalance coarse(scene, from);
-      HarmonicBalance richer(scene, to);
+    const HarmonicBalance coarse(scene, from);
+    HarmonicBalance richer(scene, to);
+    std::optional<LocalPeak> highest;
+    for (const Value* known : beside_with(family, position)) {
       const LocalPeak there = embedded(known->few.at(family), coarse, richer);
       const LocalPeak& all = known->all.at(family);
       LocalPeak start = embedded(peak, coarse, richer);
@@ -297,20 +356,26 @@ class Correction {
         start.point.parameter += all.point.parameter - there.point.parameter;
       }
       start.tangent = all.tangent;
-      if (auto found = level_point(richer, start, range_, work, farthest)) return found;
+      auto found = level_point(richer, start, range_, work, farthest);
+      if (found && (!highest || found->amplitude > highest->amplitude)) highest = std::move(found);
     }
-    return carried_peak(scene, range_, peak, from, to, work);
+    return highest ? highest : carried_peak(scene, range_, peak, from, to, work);
   }
 
-  [[nodiscard]] const Value* nearest_with(std::size_t family, double position) const {
-    const Value* nearest = nullptr;
-    double least = std::numeric_limits<double>::infinity();
+  /// The next values below and above that have a peak of the family.
+  [[nodiscard]] std::vector<const Value*> beside_with(std::size_t family, double position) const {
+    const Value* below = nullptr;
+    const Value* above = nullptr;
     for (const auto& [at, value] : values_) {
-      if (!value.all.contains(family) || std::abs(at - position) >= least) continue;
-      least = std::abs(at - position);
-      nearest = &value;
+      if (at == position || !value.all.contains(family)) continue;
+      if (at < position) below = &value;
+      if (at > position && above == nullptr) above = &value;
     }
-    return nearest;
+    std::vector<const Value*> beside;
+    for (const Value* one : {below, above}) {
+      if (one != nullptr) beside.push_back(one);
+    }
+    return beside;
   }
 
   /// log (A / a) of a family; of one that no value has, that of the highest at the nearest value.
@@ -471,6 +536,7 @@ class Correction {
   std::map<double, Value> values_;  // by position
   std::map<double, std::vector<std::pair<std::size_t, double>>> few_at_;
   bool curves_alone_ = false;  // peaks that were carried have been refuted
+  int n_refuted_ = 0;
   int n_curves_ = 0;
   PeakWork work_;
 };
