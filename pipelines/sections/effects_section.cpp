@@ -4,8 +4,10 @@
 #include <array>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "pipelines/description/effects_left_out.hpp"
 #include "pipelines/text/effect_table.hpp"
@@ -50,14 +52,13 @@ bool searches_for_speed(const SceneDescription& scene) {
          scene.response->optimum->key == "static.speed";
 }
 
-/// The list of preloads, or the range searched for the best, has a gap.
-bool asks_for_gap(const ResponseDescription& response) {
-  const auto& optimum = response.optimum;
-  if (optimum && optimum->of_preload() && optimum->range && (*optimum->range)[0] < 0.0) return true;
-  return std::ranges::any_of(response.preload, [](const PreloadEntry& entry) {
-    const auto* load = std::get_if<double>(&entry);
-    return std::holds_alternative<UniformGap>(entry) || (load != nullptr && *load < 0.0);
-  });
+/// A range searched for the best preload is one above zero.
+bool asks_for_gap(const SceneDescription& scene) {
+  return scene.response &&
+         std::ranges::any_of(scene.response->preload, [](const PreloadEntry& entry) {
+           const auto* load = std::get_if<double>(&entry);
+           return std::holds_alternative<UniformGap>(entry) || (load != nullptr && *load < 0.0);
+         });
 }
 
 /// Under some load the whole contact is open at rest.
@@ -67,7 +68,7 @@ bool is_all_open(const SceneDescription& scene) {
       return true;
     }
   }
-  return scene.response && asks_for_gap(*scene.response);
+  return asks_for_gap(scene);
 }
 
 /// Somewhere the contact is open at rest.
@@ -76,7 +77,7 @@ bool has_gap(const SceneDescription& scene) {
   if (const ModalModel* modal = modal_of(scene)) {
     return std::ranges::any_of(modal->points, [](const auto& p) { return p.rest_load < 0.0; });
   }
-  return scene.response && asks_for_gap(*scene.response);
+  return asks_for_gap(scene);
 }
 
 /// The motion along r of given modes; the modes of a mesh have one.
@@ -147,24 +148,34 @@ bool asks_for_best_value(const SceneDescription& scene) {
 }
 
 bool lacks_faces(const SceneDescription& scene) { return scene.contacts.empty(); }
-bool has_fit_degree(const SceneDescription& scene) {
-  return std::ranges::any_of(scene.settings.patches, [](const PatchSettings& patch) {
-    return patch.fit == PatchSettings::Fit::degree;
-  });
+bool is_fitted(const SceneDescription& scene, std::size_t contact) {
+  return scene.settings.patches[contact].fit == PatchSettings::Fit::degree;
 }
 /// Left out with the areas as well: there would be no scene to put it back into.
-bool has_preload_moment(const SceneDescription& scene) {
-  return std::ranges::any_of(as_written(scene).contacts, [](const ContactDescription& contact) {
-    return contact.preload_moment != std::array{0.0, 0.0};
-  });
+bool is_tilted(const SceneDescription& scene, std::size_t contact) {
+  return as_written(scene).contacts[contact].preload_moment != std::array{0.0, 0.0};
 }
+
+template <bool (*is_so)(const SceneDescription&, std::size_t contact)>
+bool is_any(const SceneDescription& scene) {
+  std::size_t contact = 0;
+  while (contact < scene.contacts.size() && !is_so(scene, contact)) ++contact;
+  return contact < scene.contacts.size();
+}
+
+/// A key that is left out instead of the effect, where a user has given it.
+struct OtherKey {
+  const char* name = nullptr;
+  /// Whether that of one of several contacts contradicts; nullptr: any does.
+  bool (*contradicts)(const SceneDescription&, std::size_t contact) = nullptr;
+};
 
 /// What one setting of an effect cannot stand beside.
 struct Contradiction {
   std::string_view effect, setting;
   bool (*is_there)(const SceneDescription&);
-  std::string_view why;                 ///< names the other key
-  std::array<const char*, 2> others{};  ///< keys that are left out instead, where they are given
+  std::string_view why;  ///< names the other key
+  OtherKey other;
 };
 
 constexpr std::string_view no_normal_stiffness =
@@ -200,10 +211,10 @@ constexpr std::array contradictions{
     Contradiction{"normal_motion",
                   "off",
                   is_all_open,
-                  "contradicts a gap, which normal motion alone closes: response.preload (or its "
-                  "optimum_range) below 0, or preload of every contact point. Without it the "
+                  "contradicts a gap, which normal motion alone closes: response.preload below "
+                  "0, or preload of every contact point. Without it the "
                   "contact never touches: response.preload = [\"free\"] asks for that",
-                  {"response.optimum_range", "response.preload"}},
+                  {"response.preload"}},
     Contradiction{
         "separation", "on", lacks_normal_motion, without_normal_motion, {"effects.normal_motion"}},
     Contradiction{"separation", "on", has_constant_load, no_normal_stiffness},
@@ -214,7 +225,7 @@ constexpr std::array contradictions{
                   has_gap,
                   "contradicts a gap, which closes and opens: response.preload below 0, or preload "
                   "of a contact point",
-                  {"response.optimum_range", "response.preload"}},
+                  {"response.preload"}},
     Contradiction{"mean_coupling",
                   "on",
                   lacks_normal_motion,
@@ -264,14 +275,14 @@ constexpr std::array contradictions{
         "directions of the modes given for them"},
     Contradiction{"local_frames",
                   "on",
-                  has_fit_degree,
+                  is_any<is_fitted>,
                   "contradicts contact.fit: a field is fitted in a plane",
-                  {"contact.fit"}},
+                  {"contact.fit", is_fitted}},
     Contradiction{"local_frames",
                   "on",
-                  has_preload_moment,
+                  is_any<is_tilted>,
                   "contradicts contact.preload_moment, which tilts a plane face",
-                  {"contact.preload_moment"}},
+                  {"contact.preload_moment", is_tilted}},
     Contradiction{"static_preload", "on", lacks_static_preload,
                   "needs contact.preload = \"static\" and the loads of [static]"},
     Contradiction{"centrifugal", "on", is_at_rest, "needs static.speed and static.axis"},
@@ -311,29 +322,33 @@ constexpr std::array contradictions{
                   {"response.search_starts"}},
 };
 
-/// Of a key as users write it; of several contacts in the first that has it; nullptr: not given.
-const toml::node* node_of(std::string_view key, const toml::table& given) {
+/// Of a key as a user writes it, the contact's where it stands in [[contact]]; nullptr: not given.
+const toml::node* node_of(std::string_view key, const toml::table& given, std::size_t contact) {
   const std::size_t dot = key.find('.');
   const toml::node* section = given.get(key.substr(0, dot));
-  const auto in = [&](const toml::node& one) {
-    return one.is_table() ? one.as_table()->get(key.substr(dot + 1)) : nullptr;
-  };
-  if (section == nullptr) return nullptr;
-  if (!section->is_array()) return in(*section);
-  for (const toml::node& one : *section->as_array()) {
-    if (const toml::node* found = in(one)) return found;
-  }
-  return nullptr;
+  if (section != nullptr && section->is_array()) section = section->as_array()->get(contact);
+  const toml::node* node = section != nullptr && section->is_table()
+                               ? section->as_table()->get(key.substr(dot + 1))
+                               : nullptr;
+  // Where a scene does not say, the program completes it: such a key has no place.
+  return node != nullptr && node->source().path ? node : nullptr;
 }
 
-/// "leave out response.harmonics (scene.toml:12) or ", of the first that is given.
-std::string leaving_out(const std::array<const char*, 2>& others, const toml::table& given,
-                        const std::string& file) {
-  for (const char* other : others) {
-    const toml::node* node = other != nullptr ? node_of(other, given) : nullptr;
-    if (node != nullptr) return fmt::format("leave out {} ({}) or ", other, place_of(node, file));
+/// "leave out response.harmonics (scene.toml:12) or "; that of every contact which contradicts.
+std::string leaving_out(const OtherKey& other, const toml::table& given,
+                        const SceneDescription& scene, const std::string& file) {
+  if (other.name == nullptr) return "else leave out ";
+  const bool is_of_contact = std::string_view(other.name).starts_with("contact.");
+  const auto* contacts = given.get_as<toml::array>("contact");
+  const std::size_t n = is_of_contact && contacts != nullptr ? contacts->size() : 1;
+  std::vector<std::string> keys;
+  for (std::size_t contact = 0; contact < n; ++contact) {
+    if (other.contradicts != nullptr && !other.contradicts(scene, contact)) continue;
+    const toml::node* node = node_of(other.name, given, contact);
+    if (node != nullptr) keys.push_back(fmt::format("{} ({})", other.name, place_of(node, file)));
   }
-  return "else leave out ";
+  if (keys.empty()) return "else leave out ";
+  return fmt::format("leave out {} or ", fmt::join(keys, " and "));
 }
 
 }  // namespace
@@ -343,9 +358,9 @@ void read_effects(const SectionReader& s, const toml::table& given, SceneDescrip
     scene.effects.emplace_back(row.name, s.word(row.name, settings));
   }
   leave_out_effects(scene);
-  for (const auto& [effect, setting, is_there, why, others] : contradictions) {
+  for (const auto& [effect, setting, is_there, why, other] : contradictions) {
     if (setting_of(scene, effect) == setting && is_there(scene)) {
-      const std::string leaving = leaving_out(others, given, s.file());
+      const std::string leaving = leaving_out(other, given, scene, s.file());
       s.fail(effect, fmt::format("\"{}\" {}; {}effects.{}", setting, why, leaving, effect),
              s.node(effect));
     }

@@ -260,6 +260,45 @@ TEST(EffectsSection, TheOtherKeyIsToldWithItsPlace) {
       << lacking;
 }
 
+// The range of the search, which has no gap, contradicts nothing, though it stands first.
+TEST(EffectsSection, TheKeyThatContradictsIsNamed) {
+  for (const std::string effect : {"normal_motion", "separation"}) {
+    const std::string message =
+        complaint(blade, {"response.optimum=preload", "response.optimum_range=[10, 100]",
+                          "response.preload=[-100]", "effects." + effect + "=off"});
+    EXPECT_NE(
+        message.find("leave out response.preload (--set response.preload=[-100]) or effects." +
+                     effect),
+        std::string::npos)
+        << message;
+    EXPECT_EQ(message.find("optimum_range"), std::string::npos) << message;
+  }
+}
+
+// The second contact is fitted by a polynomial; the first has the same key and is not.
+TEST(EffectsSection, TheContactThatContradictsIsNamed) {
+  const std::string second = std::string(blade).replace(std::string(blade).find("[contact]"), 9,
+                                                        "[[contact]]\nfit = "
+                                                        "\"none\"");
+  const std::string message = complaint(
+      (second + "[[contact]]\nsurface = \"other\"\nslip_direction = [0, 1, 0]\n"
+                "friction_coefficient = 0.4\nnormal_stiffness = 1e12\n"
+                "tangential_stiffness = 1e12\nfit = 3\n[effects]\nlocal_frames = \"on\"\n")
+          .c_str(),
+      {});
+  EXPECT_NE(message.find("leave out contact.fit (scene.toml:28) or effects.local_frames"),
+            std::string::npos)
+      << message;
+}
+
+// Preloads of a static scene that does not say are the program's, and nothing to leave out.
+TEST(EffectsSection, AKeyThatNobodyHasWrittenIsNotToBeLeftOut) {
+  const std::string message = complaint(
+      blade, {"effects.nonlinearity=off", "response.preload=", "contact.preload=static", pressing});
+  EXPECT_NE(message.find("contradicts response.preload"), std::string::npos) << message;
+  EXPECT_NE(message.find("; else leave out effects.nonlinearity"), std::string::npos) << message;
+}
+
 TEST(EffectsSection, HarmonicsLeftToTheProgramAreOneWhereHigherOnesAreOff) {
   const SceneDescription scene = parse_scene(
       modal, "scene.toml", "/nowhere", {"effects.higher_harmonics=off", "response.harmonics=auto"});
