@@ -94,6 +94,11 @@ ContinuationOptions with_excited_harmonics(const Scene& scene, const Continuatio
       options, HarmonicSet(least_harmonics(scene).orders(), is_loaded ? unknown : left_out));
 }
 
+std::string over_range(int n_intervals) {
+  return " over the whole range (" + std::to_string(n_intervals) +
+         (n_intervals == 1 ? " frequency interval" : " frequency intervals") + " looked at)";
+}
+
 /// The linear curve where it is proved to be one; nothing nonlinear is evaluated.
 std::optional<ResponseCurve> trace_certified(const Scene& scene, const ContinuationOptions& options,
                                              const PointObserver& observe) {
@@ -109,8 +114,8 @@ std::optional<ResponseCurve> trace_certified(const Scene& scene, const Continuat
   const ContinuationOptions excited = with_excited_harmonics(scene, options);
   ResponseCurve curve = CurveTracer(linear, excited, observe).run_linear();
   curve.certificate = std::string("proved ") + (stuck ? "fully stuck" : "free of contact") +
-                      " over the whole range (" + std::to_string(proof.n_intervals) +
-                      " frequency intervals): the linear response is a solution; others may exist";
+                      (low < high ? over_range(proof.n_intervals) : " at this frequency") +
+                      ": the linear response is a solution; others may exist";
   return curve;
 }
 

@@ -177,6 +177,16 @@ TEST(CertifiedCurve, IsTheNonlinearOneWithoutASingleContactEvaluation) {
   }
 }
 
+TEST(CertifiedCurve, SaysOverWhatItIsProved) {
+  const Scene scene = rubbing(200.0);
+  EXPECT_EQ(trace_response(scene, frequency_range(2.0, 3.0)).certificate,
+            "proved fully stuck over the whole range (1 frequency interval looked at): the linear "
+            "response is a solution; others may exist");
+  EXPECT_EQ(trace_response(scene, frequency_range(2.0, 2.0)).certificate,
+            "proved fully stuck at this frequency: the linear response is a solution; others may "
+            "exist");
+}
+
 TEST(CertifiedCurve, NeverEntersNewtonsMethod) {
   const Scene scene = rubbing(1e3);
   for (const auto& [begin, end] : {std::pair(0.5, 3.0), std::pair(1.5, 1.5)}) {
