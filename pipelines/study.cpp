@@ -62,7 +62,7 @@ int run_study(const SceneDescription& asked, const RunOptions& options) {
       draw_maps(solution, options.jobs, record);
     }
     record.stage("report");
-    record.progress().part("plots");
+    const Progress::Part part = record.progress().part("plots");
     record.keep_report();
   });
 }

@@ -109,7 +109,7 @@ void Progress::stage(const std::string& name) {
   const std::lock_guard lock(mutex_);
   end_stage();
   stage_ = name;
-  part_.clear();
+  parts_.clear();
   stage_begin_ = Clock::now();
   expected_ = 0.0;
   has_points_ = false;
@@ -125,9 +125,15 @@ void Progress::expect(double seconds) {
   expected_ = seconds;
 }
 
-void Progress::part(const std::string& what) {
+Progress::Part Progress::part(const std::string& what) {
   const std::lock_guard lock(mutex_);
-  part_ = what;
+  parts_.emplace(++n_parts_, what);
+  return {*this, n_parts_};
+}
+
+void Progress::end_part(int number) {
+  const std::lock_guard lock(mutex_);
+  parts_.erase(number);
 }
 
 void Progress::start_clock() {
@@ -140,7 +146,7 @@ void Progress::start_clock() {
 
 std::string Progress::time_text(double elapsed) const {
   std::string text = fmt::format("{}  {}", stage_, duration_text(elapsed));
-  if (!part_.empty()) text += ": " + part_;
+  if (!parts_.empty()) text += ": " + parts_.rbegin()->second;
   if (fraction_ > first_guess && fraction_ < 1.0) {
     return text + ", some " + duration_text(elapsed * (1.0 - fraction_) / fraction_) + " left";
   }

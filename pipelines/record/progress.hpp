@@ -53,8 +53,22 @@ class Progress {
   /// What this stage is expected to take [s]; 0: not known. While it says nothing else, a stage
   /// tells every second on a terminal, every ten elsewhere, how long it has taken and what is left.
   void expect(double seconds);
-  /// What of this stage is being done, for those lines.
-  void part(const std::string& what);
+  /// What of this stage is being done, for those lines, as long as the object lives; of several the
+  /// one begun last.
+  class Part {
+   public:
+    Part(Progress& progress, int number) : progress_(progress), number_(number) {}
+    Part(const Part&) = delete;
+    Part& operator=(const Part&) = delete;
+    Part(Part&&) = delete;
+    Part& operator=(Part&&) = delete;
+    ~Part() { progress_.end_part(number_); }
+
+   private:
+    Progress& progress_;
+    int number_;
+  };
+  [[nodiscard]] Part part(const std::string& what);
   /// A point of a curve is finished.
   /// @param fraction  of the stage that is done, 0 … 1, for the time left; below 0: not known.
   void point(const std::string& curve, const solver::ResponsePoint& point, double fraction);
@@ -85,6 +99,7 @@ class Progress {
   void draw_live(const std::string& line);
   void clear_live();
   void end_stage();
+  void end_part(int number);
   void start_clock();
   void tell_time(const std::stop_token& stop);
   [[nodiscard]] std::string time_text(double elapsed) const;
@@ -101,10 +116,11 @@ class Progress {
   Clock::time_point stage_begin_ = begin_;
   Clock::time_point last_drawn_{};
   std::string stage_;
-  std::string part_;         ///< of it, in words; empty: not told
-  double expected_ = 0.0;    ///< of the stage [s]; 0: not known
-  bool has_points_ = false;  ///< which tell more
-  double fraction_ = 0.0;    ///< of the stage, done at the last of them
+  std::map<int, std::string> parts_;  ///< of it, that are being done, in words
+  int n_parts_ = 0;                   ///< begun so far
+  double expected_ = 0.0;             ///< of the stage [s]; 0: not known
+  bool has_points_ = false;           ///< which tell more
+  double fraction_ = 0.0;             ///< of the stage, done at the last of them
   std::optional<MemoryGauge> gauge_;
   std::vector<StageRecord> stages_;
   std::vector<std::string> warnings_;

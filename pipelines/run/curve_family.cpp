@@ -280,7 +280,7 @@ void draw_maps(const ReducedModel& model, const SceneDescription& scene,
       late = true;
       return;
     }
-    record.progress().part("maps and motion of " + curves[i].name);
+    const Progress::Part part = record.progress().part("maps and motion of " + curves[i].name);
     draw_curve(model, scene, curves[i], i, kept, record);
   });
   if (late)

@@ -34,6 +34,15 @@ void tell_ranks(Progress& progress) {
       fem::n_ranks_here(), fem::n_cores(), fem::n_cores()));
 }
 
+/// Of a mesh it takes seconds where modes are many.
+ReducedModel telling_model_of(const SceneDescription& scene, const SolvedStructure* structure,
+                              Progress& progress, std::vector<std::string>& warnings) {
+  if (structure == nullptr) return model_of(scene, structure, warnings);
+  const Progress::Part part = progress.part(
+      fmt::format("linear limits of {} modes", structure->modes.basis.frequency.size()));
+  return model_of(scene, structure, warnings);
+}
+
 }  // namespace
 
 StructurePointer solved_structure(const SceneDescription& scene, RunRecord& record) {
@@ -74,12 +83,8 @@ StructurePointer solved_structure(const SceneDescription& scene, RunRecord& reco
 
 ReducedModel reduced_model(const SceneDescription& scene, const StructurePointer& structure,
                            RunRecord& record) {
-  if (structure) {
-    const Eigen::Index n_modes = structure->modes.basis.frequency.size();
-    record.progress().part(fmt::format("linear limits of {} modes", n_modes));
-  }
   std::vector<std::string> warnings = scene_warnings(scene);
-  ReducedModel model = model_of(scene, structure.get(), warnings);
+  ReducedModel model = telling_model_of(scene, structure.get(), record.progress(), warnings);
   for (const std::string& warning : warnings) record.progress().warning(warning);
   if (model.static_preload) {
     record.progress().info(

@@ -62,14 +62,37 @@ TEST(Progress, AStageWithoutAForecastTellsWhatIsBeingDone) {
   std::ostringstream out;
   Progress progress(out, true, Verbosity::normal);
   progress.stage("contact");
-  progress.part("linear limits of 900 modes");
-  std::this_thread::sleep_for(std::chrono::milliseconds(1700));
-  progress.stage("report");
-  std::this_thread::sleep_for(std::chrono::milliseconds(1700));
+  {
+    const Progress::Part part = progress.part("linear limits of 900 modes");
+    std::this_thread::sleep_for(std::chrono::milliseconds(1700));
+    progress.stage("report");
+    std::this_thread::sleep_for(std::chrono::milliseconds(1700));
+  }
   progress.finish();
   const std::regex told("contact  [1-2] s: linear limits of 900 modes");
   EXPECT_TRUE(std::regex_search(out.str(), told)) << out.str();
   EXPECT_FALSE(std::regex_search(out.str(), std::regex("report  [1-2] s:"))) << out.str();
+}
+
+// The search of the best value goes on when the maps beside it are drawn.
+TEST(Progress, WhatIsDoneIsNoLongerTold) {
+  std::ostringstream out;
+  Progress progress(out, true, Verbosity::normal);
+  progress.stage("optimum");
+  {
+    const Progress::Part first = progress.part("maps of preload_1");
+    {
+      const Progress::Part second = progress.part("maps of preload_2");
+      std::this_thread::sleep_for(std::chrono::milliseconds(1700));
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1200));
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(1200));
+  progress.finish();
+  EXPECT_TRUE(std::regex_search(
+      out.str(), std::regex("optimum  1 s: maps of preload_2[^]*optimum  [2-3] s: maps of "
+                            "preload_1[^]*optimum  [3-5] s[^:]*$")))
+      << out.str();
 }
 
 TEST(Progress, ACurveWhosePointsTakeLongTellsWhatIsLeft) {
