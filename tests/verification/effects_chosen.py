@@ -24,6 +24,7 @@ PROGRAM, SOURCE, FOLDER = sys.argv[1:4]
 SCENES = os.path.join(SOURCE, "share", "scenes")
 SLACK = 1e-3
 MANY = "response.harmonics=13"
+NO_ERRORS = "accuracy.error_budget=off"  # of what is compared with alone
 
 # Two modes and one point, which slips.
 MODAL = """[model]
@@ -60,12 +61,13 @@ def scene(name, **values):
 
 
 @functools.cache
-def run(name, path, *settings):
-    """summary.json and the warnings of a run."""
+def run(name, path, *settings, cache="off"):
+    """summary.json and the warnings of a run. `cache`: a folder of meshes, modes and curves that runs share."""
     command = [PROGRAM, "run", path, "-q", "--without", "bracket", "-o", os.path.join(FOLDER, name)]
     for setting in settings:
         command += ["--set", setting]
-    finished = subprocess.run(command, capture_output=True, text=True, timeout=300, env=without_plots())
+    finished = subprocess.run(command, capture_output=True, text=True, timeout=300,
+                              env={**without_plots(), **({} if cache == "off" else {"MICROSLIP_CACHE": cache})})
     if finished.returncode != 0:
         raise RuntimeError(f"{' '.join(command)} ended with {finished.returncode}: {finished.stderr}")
     with open(os.path.join(FOLDER, name, "summary.json"), encoding="utf-8") as file:
@@ -139,7 +141,7 @@ class AutoAgreesWithEverythingOn(unittest.TestCase):
                 path = scene(name, **VALUES[name]) if name in VALUES else path
                 auto = run(name + "_auto", path, *settings)
                 kept = [setting for setting in settings if not setting.startswith("response.harmonics=")]
-                whole = run(name + "_on", path, *kept, MANY, "effects.nonlinearity=on", "accuracy.error_budget=off", *on)
+                whole = run(name + "_on", path, *kept, MANY, "effects.nonlinearity=on", NO_ERRORS, *on)
                 bound = bounds(auto)
                 self.assertEqual(peaks(auto).keys(), peaks(whole).keys())
                 for curve, amplitude in peaks(whole).items():
@@ -285,7 +287,8 @@ class WhatMattersIsPutBack(unittest.TestCase):
     def test_a_motion_in_time(self):
         # One frequency beside the resonance; the force on the second mode nearly balances the stuck contact there.
         settings = ["response.method=time", "response.frequency=21.862", "modal.points[0].phi_u_2=0.017",
-                    "modal.force_sine=[7, 0.17]", "modal.damping_ratio=[0.01, 3.5e-4]"]
+                    "modal.force_sine=[7, 0.17]", "modal.damping_ratio=[0.01, 3.5e-4]",
+                    "response.steps_per_period=100"]  # thousands of periods, for which located changes take six times as long
         auto, on = self.runs("hidden_time", *settings), self.runs("hidden_time_on", *settings, NORMAL)
         row = effect(auto, "normal_motion")
         self.assertLess(row["indicator"], row["threshold"])
@@ -392,13 +395,20 @@ class WhatOtherKeysGiveIsSwitchedOff(unittest.TestCase):
     BLADE = ['model.element_size="15 mm"', "response.harmonics=1",
              'response.preload=["static"]', 'response.frequency=["330 Hz", "430 Hz"]', 'static.speed="2000 rpm"', "response.maps=[]"]
 
+    @classmethod
+    def setUpClass(cls):
+        # Blades share mesh and modes; a curve taken for that of another scene would not differ from it.
+        cls.blades = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.blades.cleanup)
+
     def compare(self, name, path, settings, without):
         """@param without  settings under which no other key gives the effect; None: no scene is without."""
         settings = [*settings, "response.harmonics=3"] if "response.harmonics=1" not in settings else settings
-        off = run(name + "_off", path, *settings, f"effects.{name}=off")
-        on = run(name + "_given", path, *settings)
+        cache = self.blades.name if "blade_" in path else "off"
+        off = run(name + "_off", path, *settings, f"effects.{name}=off", cache=cache)
+        on = run(name + "_given", path, *settings, NO_ERRORS, cache=cache)
         if without is not None:
-            gone = run(name + "_gone", path, *without, "response.harmonics=3")
+            gone = run(name + "_gone", path, *without, "response.harmonics=3", NO_ERRORS)
             self.assertEqual(peaks(off), peaks(gone))
         row = effect(off, name)
         self.assertIs(row["simulated"], False)
@@ -450,13 +460,14 @@ class WhatOtherKeysGiveIsSwitchedOff(unittest.TestCase):
     def test_a_range_that_only_the_rotating_blade_has_a_peak_in(self):
         path, settings = f"{SCENES}/blade_static_preload.toml", ['model.element_size="20 mm"', "response.harmonics=1", "response.maps=[]",
                                                                  'response.preload=["static"]', "contact.points=96"]
-        off, on = run("still", path, *settings, "effects.centrifugal=off"), run("turning", path, *settings)
+        cache = self.blades.name
+        off, on = run("still", path, *settings, "effects.centrifugal=off", cache=cache), run("turning", path, *settings, NO_ERRORS, cache=cache)
         self.assertGreater(peaks(on)["preload_static"], 5 * peaks(off)["preload_static"])
         row = effect(off, "centrifugal")
         self.assertIsNone(row["bound"])
         self.assertIn("no peak within its range to compare: the resonance nearest to the range changes by +21 %", row["reason"])
         self.assertTrue([line for line in off["warnings"] if "effects.centrifugal: left out" in line], off["warnings"])
-        limits = run("limits", path, *settings, "effects.centrifugal=off", 'response.preload=["free", "stuck"]')
+        limits = run("limits", path, *settings, "effects.centrifugal=off", 'response.preload=["free", "stuck"]', cache=cache)
         self.assertIn("+21 %", effect(limits, "centrifugal")["reason"])
         self.assertIn("no bound was made of what it would change: no curve under a load", effect(limits, "nonlinearity")["reason"])
 
@@ -468,7 +479,8 @@ class WhatOtherKeysGiveIsSwitchedOff(unittest.TestCase):
             command = [PROGRAM, "check", f"{SCENES}/blade_to_ground.toml"]
             for setting in settings + [f"effects.{name}=off" for name in off]:
                 command += ["--set", setting]
-            text = subprocess.run(command, capture_output=True, text=True, check=True, env=without_plots()).stdout
+            text = subprocess.run(command, capture_output=True, text=True, check=True,
+                                  env={**without_plots(), "MICROSLIP_CACHE": self.blades.name}).stdout
             rows = [line.split() for line in text.splitlines() if line.startswith("  ")]
             return {words[0]: (words[1], words[3]) for words in rows if len(words) > 6}
 
@@ -480,7 +492,7 @@ class WhatOtherKeysGiveIsSwitchedOff(unittest.TestCase):
             self.assertEqual(the_same, indicator)
 
     def test_where_errors_are_not_asked_for_it_is_said_that_there_is_no_bound(self):
-        summary = run("unbounded", scene("law"), self.LAW, "response.harmonics=3", "effects.rate_dependence=off", "accuracy.error_budget=off")
+        summary = run("unbounded", scene("law"), self.LAW, "response.harmonics=3", "effects.rate_dependence=off", NO_ERRORS)
         row = effect(summary, "rate_dependence")
         self.assertIsNone(row["bound"])
         self.assertIn('no bound was made of what it would change: accuracy.error_budget = "off"', row["reason"])
@@ -542,7 +554,7 @@ class WhatOtherKeysGiveIsSwitchedOff(unittest.TestCase):
 
     def test_results_that_are_kept_are_those_of_the_same_scene(self):
         settings = ['model.element_size="15 mm"', "response.harmonics=3", "response.preload=[100]", "response.optimum=",
-                    "response.optimum_range=", "response.maps=[]", 'contact.roughness={ law = "cubic", height = "20 um" }']
+                    "response.optimum_range=", "response.maps=[]", NO_ERRORS, 'contact.roughness={ law = "cubic", height = "20 um" }']
 
         def kept(number, setting):
             return run(f"kept_{number}", f"{SCENES}/blade_to_ground.toml", *settings, f"effects.roughness={setting}")["curves"][0]
