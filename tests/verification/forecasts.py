@@ -45,8 +45,8 @@ FEW = {
     "chain, best value": chain("response.harmonics=5"),
     "blade, 3 harmonics": blade(3, "[100, 500]"),
     "blade, 3, both directions": blade(3, "[100]", BOTH),
-    # Events located at sixteen points that open; the check of what is off.
-    "block, rough, by speed, both": block("[80]", 1),
+    # Events located at sixteen points, where most slip; the check of what is off.
+    "block, rough, by speed, both": block("[80]", 1, 'response.frequency=["32.6 Hz", "40 Hz"]'),
     "block, rough, by speed, r off": block("[20]", 1, "effects.second_direction=off"),
     "blade, 3, three effects off": blade(3, "[100, 500]", *(f"effects.{name}=off" for name in ("roughness", "moments", "residual")), CUBIC),
 }

@@ -103,7 +103,7 @@ class SharedModes(unittest.TestCase):
     def test_another_preload_is_solved_alone(self):
         study = {"response.harmonics": 3, "response.frequency": ["310 Hz", "335 Hz"],
                  "response.optimum": "preload", "response.optimum_range": [150, 600],
-                 "accuracy.error_budget": "auto", "contact.points": 96}
+                 "accuracy.error_budget": "auto", "contact.points": 24}
 
         def taken(name, preloads, *options, **changes):
             log = run(name, "--without", "bracket", *options, cache="study_cache", **{**study, "response.preload": preloads, **changes})
@@ -124,7 +124,7 @@ class SharedModes(unittest.TestCase):
         self.assertLessEqual({"preload_150", "best_value"}, taken("title", [150], title="another", **{"response.maps": ["peak"]}))
         self.assertLessEqual({"preload_150", "best_value"}, taken("no_maps", [150], **{"response.maps": ["peak"], "effects.maps": "off", "effects.wear": "off"}))
         self.assertEqual(taken("range", [150], **{"response.optimum_range": [200, 600], "accuracy.error_budget": "off"}), {"preload_150"})
-        for key, value in (("contact.friction_coefficient", 0.41), ("response.harmonics", 2), ("contact.points", 120),
+        for key, value in (("contact.friction_coefficient", 0.41), ("response.harmonics", 2), ("contact.points", 30),
                            ("response.frequency", ["310 Hz", "336 Hz"]), ("effects.normal_motion", "off")):
             self.assertEqual(taken("other", [150], **{key: value, "response.optimum": None, "response.optimum_range": None,
                                                       "accuracy.error_budget": "off"}), set(), key)
