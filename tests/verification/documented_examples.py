@@ -79,6 +79,8 @@ FILES = {
     ("modes.md", "matrices/nodes.csv"): "share/scenes/plate/nodes.csv",
     ("step.md", "blade.step"): "share/scenes/blade.step",
 }
+# Of those whose mesh is the reader's choice: as coarse as will do.
+COARSE = {("interfaces.md", "blade.toml"): ('"4 mm"', '"10 mm"')}
 # (page, begin): scene that keys are put into; else the default blade. Files of the scene are copied beside it.
 SCENES = {
     ("modes.md", '[model]\nkind = "modes"\nfile'): ("plate_calculix.toml", {"blade.inp": "plate/plate.inp"}),
@@ -215,7 +217,16 @@ class Examples(unittest.TestCase):
             if page == name:
                 os.makedirs(os.path.dirname(os.path.join(folder, file)), exist_ok=True)
                 shutil.copy(os.path.join(SOURCE, source), os.path.join(folder, file))
+                if (page, file) in COARSE:
+                    self.replace(os.path.join(folder, file), *COARSE[page, file])
         return folder
+
+    def replace(self, path, old, new):
+        with open(path, encoding="utf-8") as file:
+            text = file.read()
+        self.assertIn(old, text)
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text.replace(old, new))
 
     def copy_files(self, source, target):
         """What earlier examples of the page have made."""
