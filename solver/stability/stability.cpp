@@ -304,9 +304,15 @@ StabilityReport hill_stability(const HarmonicBalance& balance, const Harmonics& 
     return report;
   }
   if (balance.set().highest() == 1) return slow;
+  const Scene& scene = balance.scene();
+  // Of a motion that sticks throughout it takes a sum over the points, and no eigenvalues.
+  if (scene.contact && is_damped_linear(scene, q, nearby * q.vector().norm())) {
+    report.stability = Stability::stable;
+    report.basis = StabilityBasis::damped_linear;
+    return report;
+  }
   report.stability = Stability::not_assessed;
   report.basis = StabilityBasis::hill;
-  const Scene& scene = balance.scene();
   const auto n = static_cast<Eigen::Index>(slow.reduced->modes.size());
   const ReducedBalance low =
       slow.reduced->has_mean ? with_orders(*slow.reduced, low_orders(balance.set().orders(),
@@ -349,11 +355,6 @@ StabilityReport stability_in_time(const HarmonicBalance& balance, const Harmonic
   if (balance.set().highest() == 1 || !scene.transient) return hill;
   if (hill.basis == StabilityBasis::damped_linear) return hill;
   if (hill.stability == Stability::unstable) return hill;
-  if (scene.contact && is_damped_linear(scene, q, nearby * q.vector().norm())) {
-    hill.stability = Stability::stable;
-    hill.basis = StabilityBasis::damped_linear;
-    return hill;
-  }
   const Eigen::Index n_points = scene.transient->n_points();
   const bool few = effort == PeriodMapEffort::few_points;
   const bool dear =

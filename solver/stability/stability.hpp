@@ -61,8 +61,8 @@ struct StabilityReport {
                                                   const BalanceJacobian& jacobian, double frequency,
                                                   std::optional<double> determinant_sign = {});
 
-/// The same judged by Hill's exponents where there are several harmonics and the scene is no damped
-/// linear one.
+/// The same judged by Hill's exponents where there are several harmonics and neither the scene nor
+/// every motion near by is proved a damped linear one: every point stuck, or every point open.
 /// Where the mean is no unknown, motions change sign after half a period: then by the mean and even
 /// harmonics of a perturbation, which have all exponents that odd ones have.
 /// @param q     harmonics of the point.
@@ -87,9 +87,8 @@ enum class PeriodMapEffort {
 /// Several harmonics in a scene with `transient`: what Hill's problem does not call unstable is
 /// judged by the multipliers of the period map that are not real and positive. Within `distance` of
 /// the unit circle, and at least 1e-4, they tell nothing and the point is not assessed. Real
-/// positive ones are those of the determinant. Nothing is integrated where every point is proved
-/// stuck, or every point open, in that motion and those around it: with damping it is stable. Left
-/// as it is: one harmonic, and scenes too large for the effort.
+/// positive ones are those of the determinant. Left as it is: what is proved, one harmonic, and
+/// scenes too large for the effort.
 /// @param hill  hill_stability() of the same point.
 /// @param q     its harmonics.
 [[nodiscard]] StabilityReport stability_in_time(const HarmonicBalance& balance, const Harmonics& q,

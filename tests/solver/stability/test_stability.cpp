@@ -180,12 +180,12 @@ TEST(Stability, IsJudgedInTimeAtEveryPointOnlyWhereAPeriodIsCheap) {
   EXPECT_EQ(basis_in_time(plane(), PeriodMapEffort::few_points), StabilityBasis::period_map);
 }
 
-TEST(Stability, OfAMotionThatSticksThroughoutIsProvedWithoutIntegration) {
+TEST(Stability, OfAMotionThatSticksThroughoutIsProvedWithoutEigenvaluesOrIntegration) {
   ContinuationOptions options;
   options.n_harmonics = 3;
-  const auto basis_at = [&](double preload) {
+  const auto basis_at = [&](double preload, bool in_time = true) {
     Scene scene = tests::three_dof_scene(preload);
-    tests::add_transient(scene);
+    if (in_time) tests::add_transient(scene);
     tests::use_event_cycles(scene);
     const auto curve = solve_at_frequency(scene, 2.0 * std::numbers::pi * 20.5, options);
     EXPECT_TRUE(curve.complete);
@@ -193,6 +193,8 @@ TEST(Stability, OfAMotionThatSticksThroughoutIsProvedWithoutIntegration) {
   };
   EXPECT_EQ(basis_at(30.0), StabilityBasis::damped_linear);
   EXPECT_EQ(basis_at(3.0), StabilityBasis::period_map);
+  EXPECT_EQ(basis_at(30.0, false), StabilityBasis::damped_linear);
+  EXPECT_EQ(basis_at(3.0, false), StabilityBasis::hill);
 }
 
 TEST(Stability, NegativeDampingIsUnstable) {
