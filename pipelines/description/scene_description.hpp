@@ -7,6 +7,7 @@
 #include <array>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -257,6 +258,8 @@ struct SceneDescription {
   std::string without_contact;
   std::string complete_toml;  ///< the scene with --set and every default written out: scene.toml
   std::vector<std::pair<std::string, std::string>> effects;  ///< [effects] name → auto | on | off
+  /// "section.key" → "file:line: section.key", of what a user gives in sections that stand once.
+  std::map<std::string, std::string, std::less<>> places;
   bool areas = true;  ///< contact acts on areas; else on one point in the middle of each
   bool uniform_static_preload = false;  ///< of a static preload its force alone counts
   bool judges_stability = true;         ///< of points
@@ -317,6 +320,12 @@ struct SceneDescription {
   for (const ContactDescription& contact : scene.contacts) rules.push_back(contact.rules);
   if (rules.empty()) rules.push_back(scene.rules);
   return rules;
+}
+
+/// Of "section.key", for messages; the key alone where it is not given.
+[[nodiscard]] inline std::string place_in(const SceneDescription& scene, std::string_view key) {
+  const auto found = scene.places.find(key);
+  return found != scene.places.end() ? found->second : std::string(key);
 }
 
 /// What the scene says of an effect: auto, on or off.

@@ -11,25 +11,22 @@
 namespace microslip::pipelines {
 namespace {
 
-void require_stiffness_along_r(const ReducedModel& model) {
-  double smallest = std::numeric_limits<double>::infinity();
-  for (const contact::Patch& patch : model.patches) {
-    const double here = patch.cells.stiffness.col(2).minCoeff();
-    if (!(here >= smallest)) smallest = here;  // NaN too
+void require_stiffness_along_r(const ReducedModel& model, const SceneDescription& scene) {
+  for (std::size_t i = 0; i < model.patches.size(); ++i) {
+    const double smallest = model.patches[i].cells.stiffness.col(2).minCoeff();
+    if (smallest >= 0.0) continue;
+    throw RefusedError(fmt::format(
+        "{}residual flexibility makes the contact stiffness along r not positive (smallest {:.3g} "
+        "N/m^3): give a finite local stiffness and modes.residual = \"attachment\", or more modes",
+        i < scene.contacts.size() ? scene.contacts[i].place + ": " : "", smallest));
   }
-  if (smallest >= 0.0) return;
-  throw RefusedError(fmt::format(
-      "residual flexibility makes the contact stiffness along r not positive (smallest {:.3g} "
-      "N/m^3): "
-      "give a finite local stiffness and modes.residual = \"attachment\", or more modes",
-      smallest));
 }
 
-void require_obeyed(const std::vector<EffectRecord>& chosen) {
+void require_obeyed(const std::vector<EffectRecord>& chosen, const SceneDescription& scene) {
   for (const EffectRecord& effect : chosen) {
     if (effect.refusal.empty()) continue;
-    throw RefusedError(
-        fmt::format("effects.{} = \"{}\": {}", effect.name, effect.setting, effect.refusal));
+    throw RefusedError(fmt::format("{} = \"{}\": {}", place_in(scene, "effects." + effect.name),
+                                   effect.setting, effect.refusal));
   }
 }
 
@@ -43,14 +40,14 @@ ContactEffects contact_effects(const ReducedModel& model, const SceneDescription
   }
   effects.force_tolerance = scene.settings.tolerance_of_forces();
   const std::vector<EffectRecord> chosen = effects_of(scene, &model);
-  require_obeyed(chosen);
+  require_obeyed(chosen, scene);
   const EffectRecord& along_r = effect_in(chosen, "second_direction");
   effects.normal_motion = effect_in(chosen, "normal_motion").simulated != Simulated::no;
   effects.mean_coupling =
       !effects.normal_motion || effect_in(chosen, "mean_coupling").simulated != Simulated::no;
   effects.motion_ratio = along_r.indicator.value_or(0.0);
   effects.second_direction = along_r.simulated == Simulated::yes && !model.patches.empty();
-  if (effects.second_direction) require_stiffness_along_r(model);
+  if (effects.second_direction) require_stiffness_along_r(model, scene);
   return effects;
 }
 

@@ -40,8 +40,8 @@ void require_balance(const FacePoints& face, const ContactDescription& contact, 
         contact::one_sided_springs(Eigen::VectorXd::Ones(face.p.size())),
         {.force = load, .moment_y = moment[1], .moment_z = moment[0]}));
   } catch (const contact::PreloadError& error) {
-    throw RefusedError(
-        fmt::format("preload-unbalanced: {}.preload_moment: {}", contact.key, error.what()));
+    throw RefusedError(fmt::format("preload-unbalanced: {}: {}.preload_moment: {}", contact.place,
+                                   contact.key, error.what()));
   }
 }
 

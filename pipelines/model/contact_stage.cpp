@@ -56,7 +56,7 @@ void set_stiffness(contact::Patch& patch, const ContactDescription& contact,
                    const fem::ResidualFlexibility* residual) {
   if (residual == nullptr && (!contact.normal_stiffness || !contact.tangential_stiffness)) {
     throw RefusedError(
-        contact.key +
+        contact.place + ": " + contact.key +
         ": \"rigid\" means the residual stiffness alone, and modes.residual = \"none\" leaves "
         "none; give a local stiffness in N/m^3");
   }
@@ -71,8 +71,12 @@ void set_stiffness(contact::Patch& patch, const ContactDescription& contact,
     }
     if (residual != nullptr) samples.compliance = more;
   };
-  set(patch.cells, sampling.to_centres);
-  set(patch.vertices, sampling.to_vertices);
+  try {
+    set(patch.cells, sampling.to_centres);
+    set(patch.vertices, sampling.to_vertices);
+  } catch (const RefusedError& error) {
+    throw RefusedError(contact.place + ": " + error.what());
+  }
 }
 
 /// Friction coefficient and preload field over the patch, in p and r from its centroid.
@@ -108,7 +112,7 @@ contact::SurfaceRules rules_of(const ContactDescription& contact) {
   rules.local_normal_stiffness = contact.normal_stiffness;
   if (!rules.local_tangential_stiffness || !rules.local_normal_stiffness) {
     throw RefusedError(
-        contact.key +
+        contact.place + ": " + contact.key +
         ".roughness: rough surfaces need a stiffness of full contact; give normal_stiffness and "
         "tangential_stiffness in N/m^3 instead of \"rigid\"");
   }

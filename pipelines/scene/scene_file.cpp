@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
+#include <map>
 #include <optional>
+#include <string>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -335,6 +338,20 @@ void let_modes_reach_harmonics(SceneDescription& scene) {
   basis.reach = most_close_harmonics * contact::two_pi * lowest;
 }
 
+/// Of every key that a user gives, in sections that stand once.
+std::map<std::string, std::string, std::less<>> places_of(const Reading& reading) {
+  std::map<std::string, std::string, std::less<>> places;
+  for (const auto& [section, node] : reading.given) {
+    if (!node.is_table()) continue;
+    for (const auto& [key, value] : *node.as_table()) {
+      if (!value.source().path) continue;  // the program has completed it
+      const std::string whole = fmt::format("{}.{}", section.str(), key.str());
+      places.emplace(whole, fmt::format("{}: {}", place_of(&value, reading.file), whole));
+    }
+  }
+  return places;
+}
+
 SceneDescription scene_of(toml::table given, const std::string& name,
                           const std::filesystem::path& folder) {
   Reading reading{std::move(given), {}, name, folder};
@@ -358,6 +375,7 @@ SceneDescription scene_of(toml::table given, const std::string& name,
   } else {
     read_meshed(reading, kind, scene);
   }
+  scene.places = places_of(reading);
   require_static_preload(scene);
   read_effects(reading.section("effects", "effects"), reading.given, scene);
   scene.accuracy =

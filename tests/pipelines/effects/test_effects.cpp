@@ -249,7 +249,8 @@ TEST(Effects, SeparationThatIsOffIsObeyedWhereNothingOpens) {
     FAIL() << "contact opens, and is not to";
   } catch (const RefusedError& error) {
     const std::string why = error.what();
-    EXPECT_TRUE(why.starts_with("effects.separation = \"off\"")) << why;
+    EXPECT_TRUE(why.starts_with("--set effects.separation=off: effects.separation = \"off\""))
+        << why;
     EXPECT_NE(why.find("effects.normal_motion"), std::string::npos) << why;
   }
 }
@@ -287,7 +288,9 @@ TEST(Effects, MeanCouplingThatCannotBeOffIsRefused) {
       static_cast<void>(model_in(scene_of(all)));
       ADD_FAILURE() << more[0];
     } catch (const RefusedError& error) {
-      EXPECT_TRUE(std::string(error.what()).starts_with("effects.mean_coupling")) << error.what();
+      EXPECT_TRUE(std::string(error.what())
+                      .starts_with("--set effects.mean_coupling=off: effects.mean_coupling"))
+          << error.what();
     }
   }
 }

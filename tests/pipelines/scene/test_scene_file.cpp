@@ -115,6 +115,15 @@ TEST(SceneFile, ABladeSceneIsReadInSi) {
   EXPECT_EQ(scene.response->maps, maps);
 }
 
+// For what is refused when the scene has been read: by its model.
+TEST(SceneFile, KnowsWhereItsKeysStand) {
+  const SceneDescription scene =
+      parse_scene(blade_text, "scene.toml", "/nowhere", {"effects.stability=off"});
+  EXPECT_EQ(place_in(scene, "response.frequency"), "scene.toml:22: response.frequency");
+  EXPECT_EQ(place_in(scene, "effects.stability"), "--set effects.stability=off: effects.stability");
+  EXPECT_EQ(place_in(scene, "modes.solver"), "modes.solver");
+}
+
 TEST(SceneFile, EveryKeyOfTheBladeHasADefault) {
   const BladeModel blade = std::get<BladeModel>(parse(blade_text).model);
   const mesh::BladeGeometry& g = blade.geometry;
