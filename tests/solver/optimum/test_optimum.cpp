@@ -453,7 +453,8 @@ TEST(MinimisePeak, OfPeaksCorrectedFromFewHarmonicsIsThatOfMany) {
       // A branch beside the curve may be higher.
       EXPECT_GT(peak.amplitude, 0.98 * highest_with(one.family(peak.parameter), one.range))
           << peak.parameter;
-      EXPECT_GE(peak.amplitude, optimum.best.amplitude);
+      // Of equal ones it is the one in the middle.
+      EXPECT_GE(peak.amplitude, (1.0 - 3e-3) * optimum.best.amplitude);
     }
   }
 }
