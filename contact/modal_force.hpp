@@ -48,6 +48,9 @@ struct CycleReport {
   double three_states_share = 0.0;  ///< largest over the phase of the smallest area fraction
   double slip_work = 0.0;           ///< ∬∮ μ n |ds| dA [J per period], from the slip phases
   double awake_share = 1.0;         ///< fraction of the points that were evaluated one by one
+  /// Largest over the points of what the segments of a period overlap, leave open or turn back
+  /// [rad]: rounding, where events are in order.
+  double event_gap = 0.0;
 };
 
 /// What a force is known to be over a set of motions: its linear limit, stuck or free, exactly.

@@ -21,6 +21,20 @@ std::size_t group(ContactState state) {
   }
 }
 
+// Of segments that follow one another once round the period no more than rounding.
+double event_gap(std::span<const CycleSegment> segments) {
+  double gap = 0.0;
+  double whole = 0.0;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    const CycleSegment& here = segments[i];
+    const double next = segments[(i + 1) % segments.size()].start;
+    gap += std::abs(std::remainder(here.start + here.length - next, two_pi));
+    gap += std::max(-here.length, 0.0);
+    whole += here.length;
+  }
+  return gap + std::abs(whole - two_pi);
+}
+
 // At `phase`, `weight` of area leaves one group for another.
 struct Transition {
   double phase;
@@ -87,12 +101,15 @@ void ReportSum::add(std::span<const CycleSegment> segments, double dissipated_en
   }
   area_ += weight;
   slip_work_ += weight * dissipated_energy;
+  const double gap = event_gap(segments);
+  if (!(gap <= event_gap_) && !std::isnan(event_gap_)) event_gap_ = gap;
   sweep_->add(segments, weight);
 }
 
 CycleReport ReportSum::result() const {
   CycleReport report;
   report.slip_work = slip_work_;
+  report.event_gap = event_gap_;
   const double whole = share_[0] + share_[1] + share_[2];
   if (whole > 0.0) {
     report.stick_share = share_[0] / whole;

@@ -13,7 +13,8 @@ namespace microslip::contact {
 
 /// Adds up points, by whatever method: shares by the lengths of the segments; the largest
 /// coexistence of the three states by a sweep over all transition angles, between which the area
-/// fractions do not change; slip work ∬∮μn|ds|dA. Shares are 0 if all weights are.
+/// fractions do not change; slip work ∬∮μn|ds|dA. Shares are 0 if all weights are. Events are in
+/// order where each segment begins where the one before ends, once round the period.
 class ReportSum {
  public:
   ReportSum();
@@ -33,6 +34,7 @@ class ReportSum {
   std::array<double, 3> share_{};  // stick, slip, separated: area × phase
   double area_ = 0.0;
   double slip_work_ = 0.0;
+  double event_gap_ = 0.0;
 };
 
 }  // namespace microslip::contact

@@ -15,8 +15,8 @@ using pipelines::Is;
 namespace contact {
 auto members(Is<Harmonics> auto& value) { return std::tie(value.rows()); }
 auto members(Is<CycleReport> auto& value) {
-  auto& [stick, slip, separated, three_states, work, awake] = value;
-  return std::tie(stick, slip, separated, three_states, work, awake);
+  auto& [stick, slip, separated, three_states, work, awake, gap] = value;
+  return std::tie(stick, slip, separated, three_states, work, awake, gap);
 }
 }  // namespace contact
 

@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "contact/closed_form/friction_cycle.hpp"
 #include "contact/patch/contact_patch.hpp"
+#include "contact/phase.hpp"
+#include "tests/support/floating_point_traps.hpp"
 
 namespace microslip::contact::test_cycle_report {
 namespace {
@@ -35,6 +38,24 @@ TEST(CycleReport, SharesAreFractionsOfAreaTimesPeriod) {
   EXPECT_NEAR(report.separated_share, 5.0 / 8.0, 1e-15);
   EXPECT_NEAR(report.three_states_share, 1.0 / 8.0, 1e-15);
   EXPECT_EQ(report.slip_work, 0.0);
+}
+
+TEST(CycleReport, EventsOutOfOrderAreTold) {
+  const auto gap = [](std::vector<CycleSegment> segments) {
+    ReportSum sum;
+    sum.add(segments, 0.0, 1.0);
+    return sum.result().event_gap;
+  };
+  using enum ContactState;
+  const CycleSegment first{stick, 6.0, 1.0, 0.0};
+  const CycleSegment second{positive_slip, 7.0 - two_pi, two_pi - 1.0, 0.0};
+  EXPECT_LT(gap({first, second}), 1e-14);
+  EXPECT_LT(gap({{separated, 3.0, two_pi, 0.0}}), 1e-14);
+  EXPECT_GT(gap({first, {positive_slip, 7.1 - two_pi, two_pi - 1.0, 0.0}}), 0.1);
+  EXPECT_GT(gap({first, second, {stick, 6.0, 0.0, 0.0}, first, second}), two_pi - 1e-9);
+  EXPECT_GT(gap({{stick, 6.0, -0.1, 0.0}, {positive_slip, 5.9, two_pi + 0.1, 0.0}}), 0.09);
+  const tests::UntrappedFloatingPoint compares_what_is_no_number;
+  EXPECT_TRUE(std::isnan(gap({{stick, std::nan(""), two_pi, 0.0}})));
 }
 
 // Constant load, k_u a = 2 μ n₀: slip lasts 2 (π − ψ), cos ψ = 1 − 2q/(k_u a) = 0: half the period.
