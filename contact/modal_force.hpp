@@ -125,6 +125,14 @@ class ModalForce {
   /// @throws std::invalid_argument  as evaluate().
   [[nodiscard]] virtual CycleReport report(const Harmonics& q, double frequency,
                                            Workspace& work) const = 0;
+  /// What `slip_work` of report() may differ by from the work of the force: rounding where events
+  /// are located, what sampling leaves; infinite where the law has no such identity
+  /// (rough surfaces, theory section 11). Asked where they differ.
+  /// @return  [J per period], ≥ 0; 0 unless overridden: the two are the same.
+  [[nodiscard]] virtual double work_error(const Harmonics& /*q*/, double /*frequency*/,
+                                          Workspace& /*work*/) const {
+    return 0.0;
+  }
   /// What each point does under a motion: where the kind of its cycle changes the force has a kink.
   /// Costs next to nothing at the motion evaluated last with this workspace,
   /// elsewhere an evaluation.

@@ -42,6 +42,10 @@ CycleReport FewerCoordinates::report(const Harmonics& q, double frequency, Works
   return force_->report(coordinates(q), frequency, work);
 }
 
+double FewerCoordinates::work_error(const Harmonics& q, double frequency, Workspace& work) const {
+  return force_->work_error(coordinates(q), frequency, work);
+}
+
 void FewerCoordinates::states(const Harmonics& q, double frequency, ContactStates& result,
                               Workspace& work) const {
   force_->states(coordinates(q), frequency, result, work);

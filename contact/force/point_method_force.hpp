@@ -37,6 +37,11 @@ class PointMethodForce final : public PointwiseForce {
   void add_cycles(std::span<const Eigen::Index> points, double frequency, PointwiseWork& work,
                   ReportSum& sum) const override;
 
+  [[nodiscard]] WorkPrecision work_precision(Eigen::Index point,
+                                             int /*n_harmonics*/) const override {
+    return {.friction = methods_[static_cast<std::size_t>(point)]->work_precision()};
+  }
+
   std::vector<std::shared_ptr<const PointMethod>> methods_;
   std::vector<const Eigen::MatrixXd*> shape_;  // of u, v and, unless empty, w
 };

@@ -1,5 +1,8 @@
 #include "contact/force/pointwise_force.hpp"
 
+#include <algorithm>
+#include <limits>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -115,6 +118,81 @@ void PointwiseForce::states(const Harmonics& q, double frequency, ContactStates&
     const double weight = points_.weights[static_cast<Eigen::Index>(i)];
     if (weight > 0.0) result.push_back({weight / area, work.cycles[i]});
   }
+}
+
+namespace {
+
+/// Of a motion as it is summed over the modes, without what cancels: |x| and |x'| of a point and
+/// direction are no larger.
+struct MotionSizes {
+  Eigen::VectorXd of_place;  ///< |q_0| + Σ_k |q_k|
+  Eigen::VectorXd of_path;   ///< Σ_k k |q_k|
+
+  explicit MotionSizes(const Harmonics& q) {
+    of_place = q.rows().row(0).cwiseAbs().transpose();
+    of_path.setZero(of_place.size());
+    for (int k = 1; k <= q.n_harmonics(); ++k) {
+      const Eigen::VectorXd size =
+          (q.sine(k).array().square() + q.cosine(k).array().square()).sqrt().matrix();
+      of_place += size;
+      of_path += k * size;
+    }
+  }
+};
+
+/// μ(σ) is monotone.
+double largest_coefficient(const FrictionLaw& law, double fastest) {
+  return std::max(law.at_rest(), law.at(fastest).value);
+}
+
+Eigen::ArrayXd at_points(const Eigen::MatrixXd& shape, const Eigen::VectorXd& size,
+                         Eigen::Index n) {
+  if (shape.size() == 0) return Eigen::ArrayXd::Zero(n);
+  return (shape.cwiseAbs() * size).array();
+}
+
+}  // namespace
+
+double PointwiseForce::work_error(const Harmonics& q, double frequency,
+                                  Workspace& workspace) const {
+  constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
+  PointwiseWork& work = own(workspace);
+  look_at(q, frequency, work);
+  const MotionSizes sizes(q);
+  const Eigen::Index n = points_.weights.size();
+  const auto place = [&](const Eigen::MatrixXd& shape) {
+    return at_points(shape, sizes.of_place, n);
+  };
+  const auto path = [&](const Eigen::MatrixXd& shape) {
+    return at_points(shape, sizes.of_path, n);
+  };
+  const auto& k = points_.stuck_stiffness;
+  const Eigen::ArrayXd along_p = path(shapes_.u);
+  const Eigen::ArrayXd along_r = path(shapes_.w);
+  const Eigen::ArrayXd stored =
+      k.col(0).array() * place(shapes_.u) * along_p + k.col(2).array() * place(shapes_.w) * along_r;
+  const Eigen::ArrayXd change = k.col(1).array() * place(shapes_.v);
+  const Eigen::ArrayXd load = points_.reference_load.array() + change;
+  const Eigen::ArrayXd pressed = load * path(shapes_.v);
+  double error = 0.0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const std::optional<LinearRange>& range = points_.ranges[static_cast<std::size_t>(i)];
+    const bool awake = work.sleep.state(i) == SleepState::awake;
+    if (points_.weights[i] == 0.0) continue;
+    if (awake && !(range && range->sticks_linearly)) return std::numeric_limits<double>::infinity();
+    const double way = along_p[i] + along_r[i];
+    const double rubbed =
+        range ? largest_coefficient(range->friction, frequency * way) * load[i] * way : 0.0;
+    double of_point = rounding * (stored[i] + rubbed + pressed[i]);
+    if (awake) {
+      const bool parts = range->rest_load < change[i];
+      const WorkPrecision precision = work_precision(i, q.n_harmonics());
+      of_point += precision.friction * std::min(stored[i], rubbed);
+      if (parts) of_point += precision.load * pressed[i];
+    }
+    error += points_.weights[i] * of_point;
+  }
+  return std::numbers::pi * error;
 }
 
 CycleReport PointwiseForce::report(const Harmonics& q, double frequency,

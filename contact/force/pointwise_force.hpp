@@ -24,6 +24,11 @@ class PointwiseForce : public ModalForce {
   [[nodiscard]] std::unique_ptr<Workspace> workspace() const override;
   [[nodiscard]] CycleReport report(const Harmonics& q, double frequency,
                                    Workspace& work) const final;
+  /// Of each point: its precision of the smaller of what its springs would store and its friction
+  /// would do, w π Σ k_s |x_s| |x_s'| and w π μ n Σ |x_s'|, of w π n |v'| where it may part, and
+  /// rounding of all three; |x| and |x'| the sums of amplitudes, modes apart.
+  [[nodiscard]] double work_error(const Harmonics& q, double frequency,
+                                  Workspace& work) const final;
   /// At another motion than the last one: costs its evaluation, without derivatives by the modes.
   void states(const Harmonics& q, double frequency, ContactStates& result,
               Workspace& work) const final;
@@ -55,6 +60,12 @@ class PointwiseForce : public ModalForce {
   /// Linear in contact without friction: slip there has no force, and is not told.
   [[nodiscard]] bool is_frictionless(Eigen::Index point) const;
 
+  /// What a point's works may be off by beyond rounding, see work_error(); 0: events are located.
+  struct WorkPrecision {
+    double friction = 0.0;  ///< of the smaller of what its springs would store and friction do
+    double load = 0.0;      ///< of load times path, where the point may part
+  };
+
  private:
   /// Equal input gives equal bits, whatever was asked before.
   [[nodiscard]] ForceAndJacobian evaluated(const Harmonics& q, double frequency, const Asked& asked,
@@ -67,6 +78,12 @@ class PointwiseForce : public ModalForce {
   /// Cycles of these points under the motion at work.
   virtual void add_cycles(std::span<const Eigen::Index> points, double frequency,
                           PointwiseWork& work, ReportSum& sum) const = 0;
+
+  /// Of a point.
+  [[nodiscard]] virtual WorkPrecision work_precision(Eigen::Index /*point*/,
+                                                     int /*n_harmonics*/) const {
+    return {};
+  }
 
   /// @throws std::invalid_argument  it is of another force.
   [[nodiscard]] PointwiseWork& own(Workspace& work) const;

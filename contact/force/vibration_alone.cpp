@@ -20,6 +20,10 @@ CycleReport VibrationAlone::report(const Harmonics& q, double frequency, Workspa
   return force_->report(without_mean(q), frequency, work);
 }
 
+double VibrationAlone::work_error(const Harmonics& q, double frequency, Workspace& work) const {
+  return force_->work_error(without_mean(q), frequency, work);
+}
+
 void VibrationAlone::states(const Harmonics& q, double frequency, ContactStates& result,
                             Workspace& work) const {
   force_->states(without_mean(q), frequency, result, work);

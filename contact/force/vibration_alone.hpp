@@ -26,6 +26,8 @@ class VibrationAlone final : public ModalForce {
   [[nodiscard]] std::unique_ptr<Workspace> workspace() const override;
   [[nodiscard]] CycleReport report(const Harmonics& q, double frequency,
                                    Workspace& work) const override;
+  [[nodiscard]] double work_error(const Harmonics& q, double frequency,
+                                  Workspace& work) const override;
   void states(const Harmonics& q, double frequency, ContactStates& result,
               Workspace& work) const override;
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override;

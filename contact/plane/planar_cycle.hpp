@@ -47,11 +47,14 @@ class PlaneEvents final : public PointMethod {
                                      const Eigen::VectorXd& phases, int n_harmonics) const override;
   [[nodiscard]] Eigen::Vector3d stuck_stiffness() const override;
   [[nodiscard]] double reference_load() const override { return law_.reference_load(); }
+  [[nodiscard]] double work_precision() const override { return work_per_tolerance * tolerance_; }
   [[nodiscard]] std::optional<LinearRange> linear_range() const override {
     return law_.linear_range();
   }
 
  private:
+  static constexpr double work_per_tolerance = 10.0;  // seldom one (test_work_error.cpp)
+
   SurfaceLaw law_;
   double tolerance_;
 };

@@ -99,6 +99,9 @@ class PointMethod {
   [[nodiscard]] virtual Eigen::Vector3d stuck_stiffness() const = 0;
   /// n_ref: the load that is in balance before vibration begins [Pa].
   [[nodiscard]] virtual double reference_load() const = 0;
+  /// What `dissipated_energy` and the work of the force may differ by beyond rounding, relative to
+  /// the smaller of what springs would store and friction would do (pointwise_force.hpp).
+  [[nodiscard]] virtual double work_precision() const { return 0.0; }
   /// Where traction() is linear and need not be asked; none: unknown, evaluate.
   [[nodiscard]] virtual std::optional<LinearRange> linear_range() const { return std::nullopt; }
 };

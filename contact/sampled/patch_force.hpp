@@ -70,6 +70,8 @@ class PatchForce final : public PointwiseForce {
                                              PointwiseWork& work) const override;
   void add_cycles(std::span<const Eigen::Index> points, double frequency, PointwiseWork& work,
                   ReportSum& sum) const override;
+  [[nodiscard]] WorkPrecision work_precision(Eigen::Index point, int n_harmonics) const override;
+  [[nodiscard]] int instants_for(int n_harmonics, int force_harmonics) const;
   [[nodiscard]] Grid grid(int n_harmonics, int force_harmonics, Work& work) const;
   /// @param work  shared by the parts: each keeps what its own points do.
   void sum_line(Part& part, double frequency, bool derivatives, const Grid& grid, Work& work) const;

@@ -353,6 +353,10 @@ double HarmonicBalance::force_scale(double frequency) const {
   return std::max(load, (stiffness * stuck).norm());
 }
 
+double HarmonicBalance::work_error(const Harmonics& q, double frequency) {
+  return work_ ? scene_.contact->work_error(q, frequency, *work_) : 0.0;
+}
+
 double HarmonicBalance::largest_terms(const Eigen::VectorXd& x, double frequency) const {
   const Harmonics q = harmonics(x);
   // A stiff contact holds its points still: motions of the modes cancel there, their rounding does

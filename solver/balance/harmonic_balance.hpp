@@ -71,6 +71,8 @@ class HarmonicBalance {
                                         int n_harmonics);
   /// What the contact did under a solution, see ModalForce::report(); all zero without contact.
   [[nodiscard]] contact::CycleReport report(const Harmonics& q, double frequency);
+  /// See ModalForce::work_error(); 0 without contact.
+  [[nodiscard]] double work_error(const Harmonics& q, double frequency);
   /// See ModalForce::states(); empty without contact.
   void states(const Eigen::VectorXd& x, double frequency, contact::ContactStates& result);
   /// Response of the linear structure with a stiffness added: (L + S) x = Q. A resonance without
