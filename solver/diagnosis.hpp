@@ -27,7 +27,8 @@ enum class Diagnosis : std::uint8_t {
   out_of_range,
   unbounded,     ///< at an undamped resonance that nothing limits
   not_periodic,  ///< in time: motions that do not repeat themselves
-  interrupted    ///< the observer asked to stop
+  interrupted,   ///< the observer asked to stop
+  uncertified    ///< solutions whose proof fails (curve/certificate.hpp)
 };
 
 /// What helped where a step had failed, or was done in its place.
@@ -45,7 +46,8 @@ enum class Remedy : std::uint8_t {
   /// There is one, of which the nearest point found is marked, within the step in which it lies.
   peak_unsolved,
   fold_unsolved,  ///< likewise
-  more_instants   ///< the whole curve traced again, twice as many of a period sampled
+  more_instants,  ///< the whole curve traced again, twice as many of a period sampled
+  row_left_out    ///< a solution whose proof fails is no row of the curve
 };
 
 namespace names {
@@ -69,6 +71,7 @@ inline constexpr std::array diagnoses{
     Name<Diagnosis>{Diagnosis::unbounded, "unbounded"},
     Name<Diagnosis>{Diagnosis::not_periodic, "not-periodic"},
     Name<Diagnosis>{Diagnosis::interrupted, "interrupted"},
+    Name<Diagnosis>{Diagnosis::uncertified, "uncertified"},
 };
 
 inline constexpr std::array remedies{
@@ -85,6 +88,7 @@ inline constexpr std::array remedies{
     Name<Remedy>{Remedy::peak_unsolved, "peak-unsolved"},
     Name<Remedy>{Remedy::fold_unsolved, "fold-unsolved"},
     Name<Remedy>{Remedy::more_instants, "more-instants"},
+    Name<Remedy>{Remedy::row_left_out, "row-left-out"},
 };
 
 /// Whether a row is at the place of its value.

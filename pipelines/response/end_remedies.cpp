@@ -60,6 +60,11 @@ constexpr std::array ends_of_curves{
         "the same command with --resume goes on; where --budget has ended it, the same with more "
         "of it and without --resume, from the cache",
         ""},
+    EndOfCurve{Diagnosis::uncertified,
+               "set response.harmonics to another number, or response.method = \"time\"; a contact "
+               "many orders of ten stiffer than the structure leaves no digits: is "
+               "contact.tangential_stiffness, or contact.normal_stiffness, right?",
+               ""},
 };
 
 struct EndOfSearch {

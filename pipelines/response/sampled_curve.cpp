@@ -136,6 +136,11 @@ bool is_last(const ReducedModel& model) {
   return !is_plain(model) && instants_of(model) >= most_instants;
 }
 
+bool has_left_out(const solver::ResponseCurve& curve) {
+  return std::ranges::find(curve.log, solver::Remedy::row_left_out, &solver::SolverEvent::remedy) !=
+         curve.log.end();
+}
+
 /// Ended where it is to be traced again, with what is closer.
 Tracing checked_tracing(const ReducedModel& model, double load,
                         const solver::ContinuationOptions& options,
@@ -157,6 +162,7 @@ Tracing checked_tracing(const ReducedModel& model, double load,
     result.curve = solver::solve_at_frequency(balanced_scene(model, load, options),
                                               options.frequency_begin, options);
     for (const solver::ResponsePoint& point : result.curve.points) judge(point);
+    result.noisy = sampled && has_left_out(result.curve);
     return result;
   }
   result.curve = solver::trace_response(
@@ -164,7 +170,8 @@ Tracing checked_tracing(const ReducedModel& model, double load,
         judge(point);
         return (last || (result.error <= tolerance && !dear.met())) && observe(point);
       });
-  result.noisy = sampled && (dear.met() || walked_on_noise(result.curve));
+  result.noisy =
+      sampled && (dear.met() || walked_on_noise(result.curve) || has_left_out(result.curve));
   return result;
 }
 

@@ -236,9 +236,13 @@ class Search {
 
   void keep_branch(NewtonResult start) {
     if (options_.frequency_begin == options_.frequency_end) {
-      DetachedBranch branch;
-      branch.points.push_back(solved_point(*balance_, start, options_));
-      curve_.detached.push_back(std::move(branch));
+      SolvedPoint solved = solved_point(*balance_, start, options_);
+      curve_.contact_evaluations += solved.evaluations;
+      if (!solved.why.empty()) {
+        curve_.log.push_back({start.point.parameter, Remedy::row_left_out});
+        return;
+      }
+      curve_.detached.push_back({.points = {std::move(solved.point)}});
       return;
     }
     const PointObserver none;
@@ -252,15 +256,20 @@ class Search {
       const ResponseCurve back =
           CurveTracer(scene_, backward, none).follow(std::move(start), balance_->set());
       count_work(back);
-      branch.points.assign(back.points.rbegin(), back.points.rend() - 1);
+      if (!back.points.empty()) {
+        branch.points.assign(back.points.rbegin(), back.points.rend() - 1);
+      }
     }
     branch.points.insert(branch.points.end(), ahead.points.begin(), ahead.points.end());
-    curve_.detached.push_back(std::move(branch));
+    if (!branch.points.empty()) curve_.detached.push_back(std::move(branch));
   }
 
   void count_work(const ResponseCurve& branch) {
     curve_.iterations += branch.iterations;
     curve_.contact_evaluations += branch.contact_evaluations;
+    std::ranges::copy_if(branch.log, std::back_inserter(curve_.log), [](const SolverEvent& event) {
+      return event.remedy == Remedy::row_left_out;
+    });
   }
 
   const Scene& scene_;

@@ -217,8 +217,15 @@ ResponseCurve solve_at_frequency(const Scene& scene, double frequency,
   ResponseCurve curve;
   curve.iterations = start.iterations;
   curve.contact_evaluations = start.evaluations;
-  if (start.solution) {
-    curve.points.push_back(solved_point(balance, *start.solution, options));
+  std::optional<SolvedPoint> solved;
+  if (start.solution) solved = solved_point(balance, *start.solution, options);
+  if (solved) curve.contact_evaluations += solved->evaluations;
+  if (solved && !solved->why.empty()) {
+    curve.diagnosis = Diagnosis::uncertified;
+    curve.message = std::move(solved->why);
+    curve.log.push_back({frequency, Remedy::row_left_out});
+  } else if (solved) {
+    curve.points.push_back(std::move(solved->point));
     curve.points.back().contact_evaluations = curve.contact_evaluations;
     curve.points.back().seconds = watch.seconds();
     curve.complete = true;
@@ -247,7 +254,8 @@ std::vector<ResponsePoint> points_at_frequency(const Scene& scene, const Respons
     newton.max_iterations = 30;
     const NewtonResult solution = solve_at(*balance, guess, frequency, newton);
     if (!solution.converged) return;
-    found.push_back(solved_point(*balance, solution, options));
+    SolvedPoint solved = solved_point(*balance, solution, options);
+    if (solved.why.empty()) found.push_back(std::move(solved.point));
   };
   for (std::size_t i = 0; i < curve.points.size(); ++i) {
     const ResponsePoint& b = curve.points[i];

@@ -106,6 +106,7 @@ void CurveTracer::take_stock(const BranchWalker& walker) {
 }
 
 void CurveTracer::stop(Diagnosis diagnosis, const std::string& message) {
+  if (curve_.diagnosis == Diagnosis::uncertified) return;  // why the rest was not walked
   curve_.diagnosis = diagnosis;
   curve_.message = message;
 }
@@ -149,6 +150,7 @@ bool CurveTracer::came_back(std::size_t n_before) const {
 bool CurveTracer::endless() const {
   constexpr double near = 1e-6;  // of the frequency: 5e5 times the static response
   constexpr double high = 1e4;   // times the first point
+  if (curve_.points.empty()) return false;
   const ResponsePoint& now = curve_.points.back();
   return unbounded_ && std::abs(now.frequency - *unbounded_) <= near * *unbounded_ &&
          now.amplitude > high * curve_.points.front().amplitude;
@@ -300,6 +302,7 @@ void CurveTracer::use(const HarmonicSet& set) {
 
 ResponseCurve CurveTracer::finished() {
   mark_unsolved(curve_);
+  tell_left_out();
   return std::move(curve_);
 }
 

@@ -17,6 +17,10 @@
 
 namespace microslip::solver {
 
+/// Of the residual: of a contact some 1e9 times stiffer than the modes rounding leaves more of
+/// linear equations than elsewhere, as the residual of every row tells.
+inline constexpr double linear_rounding = 1e-6;
+
 class CurveTracer {
  public:
   /// @param scene  borrowed.
@@ -48,9 +52,14 @@ class CurveTracer {
   [[nodiscard]] StabilityReport stability_at(const NewtonResult& at);
   [[nodiscard]] StabilityReport judged(const NewtonResult& at, PointMark mark);
   [[nodiscard]] ResponsePoint certified(const NewtonResult& at, PointMark mark);
-  /// False: the observer asked to stop.
+  /// What keeps it from being a row; empty: nothing.
+  [[nodiscard]] std::string objection_to(const ResponsePoint& point);
+  /// Where its proof fails the solution is solved closer, and left out if that does not help.
+  /// False: the observer asked to stop, or too many were left out.
   [[nodiscard]] bool add(const NewtonResult& at, PointMark mark = PointMark::none);
   [[nodiscard]] bool add(ResponsePoint point);
+  [[nodiscard]] bool add_certified(ResponsePoint point);
+  [[nodiscard]] bool leave_out(const ResponsePoint& point, const std::string& why);
   /// True: the walker stalled; false: the curve has ended one way or another.
   [[nodiscard]] bool walk(BranchWalker& walker);
   /// @param way  sign of the first change of the frequency.
@@ -62,6 +71,7 @@ class CurveTracer {
   void take_stock(const BranchWalker& walker);
   void use(const HarmonicSet& set);
   [[nodiscard]] ResponseCurve finished();
+  void tell_left_out();
   [[nodiscard]] bool endless() const;
   [[nodiscard]] bool closed(const BranchWalker& walker, int n_steps) const;
   /// @param n_before  points of the curve that were there before the last step.
@@ -94,8 +104,18 @@ class CurveTracer {
   ResponseCurve curve_;
   double range_;
   StabilityReport last_stability_;
-  Eigen::VectorXd last_x_;       ///< of last_stability_
-  std::optional<Entry> entry_;   ///< where a jump entered the branch walked now
+  Eigen::VectorXd last_x_;      ///< of last_stability_
+  std::optional<Entry> entry_;  ///< where a jump entered the branch walked now
+  bool is_linear_ = false;      ///< solved by run_linear()
+  /// Solutions that are no rows.
+  struct LeftOut {
+    int rows = 0;
+    int peaks = 0;
+    int folds = 0;
+    int in_succession = 0;  ///< since the last row
+    std::string why;        ///< of the first
+  };
+  LeftOut left_out_;
   std::size_t n_remedies_ = 0;   ///< of the walker, in the log already
   long walker_evaluations_ = 0;  ///< of the walker, counted already
   long walker_iterations_ = 0;

@@ -36,9 +36,6 @@ NewtonResult CurveTracer::linear_response(double frequency) {
   NewtonResult at;
   at.point = {balance_->linear_response(frequency, balance_->stuck_stiffness()), frequency};
   const Scaling scaling = natural_scaling(*balance_, at.point.x, frequency);
-  // Of a contact some 1e9 times stiffer than the modes rounding leaves more than elsewhere, as the
-  // residual of every row tells.
-  constexpr double of_rounding = 1e-6;
   constexpr int most_refinements = 3;
   for (int i = 0;; ++i) {
     at.evaluation = balance_->evaluate(at.point.x, frequency);
@@ -46,7 +43,7 @@ NewtonResult CurveTracer::linear_response(double frequency) {
     at.converged = at.residual <= std::max(options_.residual_tolerance, scaling.rounding);
     if (at.converged) return at;
     if (i == most_refinements) {
-      at.converged = at.residual <= of_rounding;
+      at.converged = at.residual <= linear_rounding;
       return at;
     }
     at.point.x -= solved(at.evaluation.jacobian, at.evaluation.residual);
@@ -71,6 +68,7 @@ bool CurveTracer::add_peak_before(ResponsePoint& now) {
 }
 
 ResponseCurve CurveTracer::run_linear() {
+  is_linear_ = true;
   const DrivenResonances resonances = driven_resonances(scene_, balance_->stuck_stiffness());
   const double end = options_.frequency_end;
   double frequency = options_.frequency_begin;

@@ -1,6 +1,7 @@
 // The part of CurveTracer that makes rows of the curve: points with their proof, peaks and folds of
 // a step, and the end of the range.
 
+#include <algorithm>
 #include <chrono>
 #include <numbers>
 #include <sstream>
@@ -44,9 +45,54 @@ ResponsePoint CurveTracer::certified(const NewtonResult& at, PointMark mark) {
   return point;
 }
 
-bool CurveTracer::add(const NewtonResult& at, PointMark mark) { return add(certified(at, mark)); }
+std::string CurveTracer::objection_to(const ResponsePoint& point) {
+  Gates gates = gates_of(*balance_, point, options_.residual_tolerance);
+  if (is_linear_) gates.residual = std::max(gates.residual, linear_rounding);
+  return objection(point, gates);
+}
+
+bool CurveTracer::add(const NewtonResult& at, PointMark mark) {
+  ResponsePoint point = certified(at, mark);
+  if (objection_to(point).empty()) return add_certified(std::move(point));
+  const Held held = mark == PointMark::none ? Held::frequency : Held::place_on_the_branch;
+  const NewtonResult closer = solved_closer(*balance_, at, held);
+  curve_.contact_evaluations += closer.evaluations;
+  return add(certified(closer, mark));
+}
 
 bool CurveTracer::add(ResponsePoint point) {
+  const std::string why = objection_to(point);
+  return why.empty() ? add_certified(std::move(point)) : leave_out(point, why);
+}
+
+/// Others are gone on with, but not beyond some in succession.
+bool CurveTracer::leave_out(const ResponsePoint& point, const std::string& why) {
+  constexpr int most = 3;
+  curve_.log.push_back({point.frequency, Remedy::row_left_out});
+  if (left_out_.why.empty()) left_out_.why = at_hertz(why, point.frequency);
+  ++left_out_.rows;
+  if (point.mark == PointMark::peak) ++left_out_.peaks;
+  if (point.mark == PointMark::fold) ++left_out_.folds;
+  if (++left_out_.in_succession < most) return true;
+  stop(Diagnosis::uncertified,
+       at_hertz("the proofs of solution after solution fail", point.frequency));
+  return false;
+}
+
+/// A curve that lacks rows is not complete, whatever its end.
+void CurveTracer::tell_left_out() {
+  if (left_out_.rows == 0) return;
+  curve_.complete = false;
+  if (curve_.diagnosis == Diagnosis::none) curve_.diagnosis = Diagnosis::uncertified;
+  std::ostringstream text;
+  text << curve_.message << (curve_.message.empty() ? "" : "; ") << left_out_.rows
+       << " solutions left out (" << left_out_.peaks << " peaks, " << left_out_.folds
+       << " folds among them), the first for its " << left_out_.why;
+  curve_.message = text.str();
+}
+
+bool CurveTracer::add_certified(ResponsePoint point) {
+  left_out_.in_succession = 0;
   const Clock::time_point now = Clock::now();
   point.contact_evaluations = curve_.contact_evaluations - point_evaluations_;
   point.seconds = std::chrono::duration<double>(now - last_time_).count();

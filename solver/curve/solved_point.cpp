@@ -4,8 +4,9 @@
 #include "solver/stability/stability.hpp"
 
 namespace microslip::solver {
+namespace {
 
-ResponsePoint solved_point(HarmonicBalance& balance, const NewtonResult& solution,
+ResponsePoint judged_point(HarmonicBalance& balance, const NewtonResult& solution,
                            const ContinuationOptions& options) {
   const double frequency = solution.point.parameter;
   if (!options.judge_stability) {
@@ -19,6 +20,22 @@ ResponsePoint solved_point(HarmonicBalance& balance, const NewtonResult& solutio
                                          balance.harmonics(solution.point.x), frequency),
                         PeriodMapEffort::few_points);
   return certified_point(balance, solution, frequency, stability);
+}
+
+}  // namespace
+
+SolvedPoint solved_point(HarmonicBalance& balance, const NewtonResult& solution,
+                         const ContinuationOptions& options) {
+  const auto with_objection = [&](ResponsePoint point) {
+    std::string why = objection(point, gates_of(balance, point, options.residual_tolerance));
+    return SolvedPoint{std::move(point), std::move(why)};
+  };
+  SolvedPoint solved = with_objection(judged_point(balance, solution, options));
+  if (solved.why.empty()) return solved;
+  const NewtonResult closer = solved_closer(balance, solution, Held::frequency);
+  solved = with_objection(judged_point(balance, closer, options));
+  solved.evaluations = closer.evaluations;
+  return solved;
 }
 
 }  // namespace microslip::solver

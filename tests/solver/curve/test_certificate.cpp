@@ -2,10 +2,19 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
 
+#include "solver/branch/start_point.hpp"
+#include "solver/continuation.hpp"
 #include "tests/solver/duffing.hpp"
+#include "tests/support/floating_point_traps.hpp"
+#include "tests/support/modal_scenes.hpp"
 
 namespace microslip::solver::test_certificate {
 namespace {
@@ -80,6 +89,165 @@ TEST(Certificate, TheSlopeIsThatOfTheClosedForm) {
 TEST(Certificate, RestHasNoSlope) {
   const Scene scene = tests::Duffing{.force = 0.0}.scene();
   EXPECT_FALSE(certified(scene, Eigen::Vector3d::Zero(), 0.9).slope);
+}
+
+/// Another force with an error in what it says.
+class FaultyForce final : public contact::ModalForce {
+ public:
+  struct Fault {
+    double force = 0.0;      ///< relative
+    double slip_work = 0.0;  ///< relative
+    double event_gap = 0.0;  ///< [rad]
+  };
+  /// @param fault  at a motion.
+  using FaultAt = std::function<Fault(const Harmonics& q, double frequency)>;
+
+  FaultyForce(std::unique_ptr<const ModalForce> force, FaultAt fault)
+      : ModalForce(force->n_modes()), force_(std::move(force)), fault_(std::move(fault)) {}
+  [[nodiscard]] std::unique_ptr<Workspace> workspace() const override {
+    return force_->workspace();
+  }
+  [[nodiscard]] contact::CycleReport report(const Harmonics& q, double frequency,
+                                            Workspace& work) const override {
+    contact::CycleReport report = force_->report(q, frequency, work);
+    const Fault fault = fault_(q, frequency);
+    report.slip_work *= 1.0 + fault.slip_work;
+    report.event_gap += fault.event_gap;
+    return report;
+  }
+  [[nodiscard]] double work_error(const Harmonics& q, double frequency,
+                                  Workspace& work) const override {
+    return force_->work_error(q, frequency, work);
+  }
+  [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override {
+    return force_->stuck_stiffness();
+  }
+
+ private:
+  [[nodiscard]] contact::ForceAndJacobian evaluated(const Harmonics& q, double frequency,
+                                                    const contact::Asked& asked,
+                                                    Workspace& work) const override {
+    contact::ForceAndJacobian result = force_->evaluate(q, frequency, asked, work);
+    result.force.rows() *= 1.0 + fault_(q, frequency).force;
+    return result;
+  }
+
+  std::unique_ptr<const ModalForce> force_;
+  FaultAt fault_;
+};
+
+constexpr double preload = 10.0;  // [N], half the force: the contact slips for a part of the period
+constexpr double slips_at = 130.0;  // [rad/s], between the free and the stuck resonance
+
+Scene with_fault(FaultyForce::FaultAt fault) {
+  Scene scene = tests::chain_scene(preload);
+  scene.contact = std::make_unique<FaultyForce>(std::move(scene.contact), std::move(fault));
+  return scene;
+}
+
+std::string what_is_wrong(const FaultyForce::Fault& fault) {
+  const Scene scene = with_fault([&](const auto&, double) { return fault; });
+  const ResponseCurve curve = solve_at_frequency(scene, slips_at, {});
+  EXPECT_EQ(curve.complete, curve.message.empty());
+  EXPECT_EQ(curve.points.size(), curve.complete ? 1 : 0);
+  if (!curve.complete) EXPECT_EQ(curve.diagnosis, Diagnosis::uncertified);
+  return curve.message;
+}
+
+// Of the work of friction 1e-7 is more than located events leave.
+TEST(Certificate, NoRowIsMadeOfAnErrorInWorkOrOrder) {
+  EXPECT_EQ(what_is_wrong({}), "");
+  EXPECT_NE(what_is_wrong({.force = 1e-7}).find("dissipation mismatch"), std::string::npos);
+  EXPECT_NE(what_is_wrong({.slip_work = 1e-7}).find("dissipation mismatch"), std::string::npos);
+  EXPECT_NE(what_is_wrong({.event_gap = 1e-6}).find("out of order"), std::string::npos);
+  const tests::UntrappedFloatingPoint compares_what_is_no_number;
+  EXPECT_NE(what_is_wrong({.slip_work = std::nan("")}).find("dissipation mismatch"),
+            std::string::npos);
+}
+
+// However much larger than the work the forces are that cancel in it.
+TEST(Certificate, GatesThatScaleWithRoundingStillFail) {
+  for (const double stiffer : {1.0, 1e3, 1e6}) {
+    tests::Duffing duffing{.alpha = 0.0, .zeta = 1e-3};
+    Scene scene = duffing.scene();
+    scene.natural_frequency[0] = std::sqrt(stiffer);
+    HarmonicBalance balance(scene, 1);
+    Eigen::VectorXd x = balance.linear_response(1.001, Eigen::MatrixXd::Zero(1, 1));
+    NewtonResult solution = solve_at(balance, x, 1.001, {});
+    const auto objection_to = [&](const NewtonResult& to) {
+      const ResponsePoint point = certified_point(balance, to, 1.001, {});
+      return objection(point, gates_of(balance, point, 1e-11));
+    };
+    EXPECT_EQ(objection_to(solution), "");
+    solution.point.x *= 1.0 + 1e-8;
+    solution.evaluation = balance.evaluate(solution.point.x, 1.001);
+    EXPECT_NE(objection_to(solution).find("energy imbalance"), std::string::npos) << stiffer;
+    EXPECT_EQ(objection_to(solved_closer(balance, solution, Held::frequency)), "") << stiffer;
+  }
+}
+
+ContinuationOptions about_the_resonance() {
+  ContinuationOptions options;
+  options.frequency_begin = 0.5 * slips_at;
+  options.frequency_end = 2.0 * slips_at;
+  return options;
+}
+
+bool has(const ResponseCurve& curve, Remedy remedy) {
+  return std::ranges::find(curve.log, remedy, &SolverEvent::remedy) != curve.log.end();
+}
+
+/// Faults of `size` where the frequency is that of a row, to a share.
+ResponseCurve with_fault_near(const ResponsePoint& row, double share) {
+  return trace_response(
+      with_fault([&, share](const auto&, double frequency) {
+        const double from = std::abs(frequency - row.frequency);
+        return FaultyForce::Fault{.slip_work = from <= share * row.frequency ? 1e-3 : 0.0};
+      }),
+      about_the_resonance(), {});
+}
+
+TEST(Certificate, ACurveGoesRoundARowWhoseProofFails) {
+  const ResponseCurve whole =
+      trace_response(tests::chain_scene(preload), about_the_resonance(), {});
+  ASSERT_TRUE(whole.complete) << whole.message;
+  const ResponseCurve curve = with_fault_near(whole.points[whole.points.size() / 2], 0.0);
+  EXPECT_TRUE(curve.complete) << curve.message;
+  EXPECT_TRUE(has(curve, Remedy::row_left_out));
+  EXPECT_TRUE(has(curve, Remedy::other_end)) << "the rows from the other end are others";
+}
+
+TEST(Certificate, ACurveThatLacksItsPeakIsNotComplete) {
+  const ResponseCurve whole =
+      trace_response(tests::chain_scene(preload), about_the_resonance(), {});
+  const auto peak = std::ranges::find(whole.points, PointMark::peak, &ResponsePoint::mark);
+  ASSERT_NE(peak, whole.points.end());
+  const ResponseCurve curve = with_fault_near(*peak, 1e-9);
+  EXPECT_FALSE(curve.complete);
+  EXPECT_EQ(curve.diagnosis, Diagnosis::uncertified);
+  EXPECT_NE(curve.message.find("1 peaks"), std::string::npos) << curve.message;
+  EXPECT_NE(curve.message.find("dissipation mismatch"), std::string::npos) << curve.message;
+  EXPECT_TRUE(has(curve, Remedy::row_left_out));
+  EXPECT_TRUE(has(curve, Remedy::peak_unsolved));
+  EXPECT_GT(std::ssize(curve.points), std::ssize(whole.points) / 2) << "it goes on to its end";
+}
+
+TEST(Certificate, ACurveEndsWhereProofsFail) {
+  const ContinuationOptions options = about_the_resonance();
+  const double from = 1.2 * slips_at;
+  const ResponseCurve curve =
+      trace_response(with_fault([&](const auto&, double frequency) {
+                       const bool is_bad = frequency > from && frequency < 1.5 * slips_at;
+                       return FaultyForce::Fault{.event_gap = is_bad ? 1e-3 : 0.0};
+                     }),
+                     options, {});
+  EXPECT_FALSE(curve.complete);
+  EXPECT_EQ(curve.diagnosis, Diagnosis::uncertified);
+  EXPECT_NE(curve.message.find("events out of order by 0.001 rad (at most 1e-09)"),
+            std::string::npos)
+      << curve.message;
+  for (const ResponsePoint& point : curve.points) EXPECT_EQ(point.report.event_gap < 1e-9, true);
+  EXPECT_FALSE(curve.points.empty());
 }
 
 }  // namespace

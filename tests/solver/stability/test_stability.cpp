@@ -118,7 +118,7 @@ TEST(Stability, OfALinearForceThatIsNoSpringIsNotProved) {
   for (const Eigen::Matrix2d& stiffness :
        {Eigen::Matrix2d{{0.0, 0.01}, {-0.01, 0.0}}, Eigen::Matrix2d{{-0.1, 0.0}, {0.0, 0.0}}}) {
     Scene scene = sprung_modes(0.02);
-    scene.contact = std::make_unique<LinearForce>(stiffness, contact::CycleReport{1.0, 0.0, 0.0});
+    scene.contact = std::make_unique<LinearForce>(stiffness, contact::CycleReport{});
     EXPECT_EQ(basis_of(scene), StabilityBasis::hill);
   }
 }
