@@ -25,9 +25,13 @@
 #include "support/planar_cases.hpp"
 #include "support/surface_cases.hpp"
 #include "tests/support/asked_force.hpp"
+#include "tests/support/floating_point_traps.hpp"
 
 namespace microslip::contact::test_work_error {
 namespace {
+
+// Lanes compute both branches.
+[[maybe_unused]] const tests::UntrappedFile this_file(__FILE__);
 
 using Force = std::unique_ptr<ModalForce>;
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -92,12 +93,15 @@ TEST(OddMotions, WhatMayBreakTheSymmetryKeepsThem) {
   EXPECT_EQ(solved({"response.harmonics=7"}).orders, (std::vector<int>{1, 3, 5, 7}));
 }
 
-/// Largest growth of Hill's exponents at a motion [rad/s].
-double growth(const solver::Scene& scene, const solver::HarmonicSet& set,
-              const solver::ResponsePoint& at) {
+/// Largest growth of Hill's exponents at a motion [rad/s]; empty: it is proved stable without them.
+std::optional<double> growth(const solver::Scene& scene, const solver::HarmonicSet& set,
+                             const solver::ResponsePoint& at) {
   solver::HarmonicBalance balance(scene, set);
   const auto evaluation = balance.evaluate(balance.unknowns(at.q), at.frequency);
-  return solver::assess_stability(balance, evaluation.jacobian, at.q, at.frequency).growth;
+  const solver::StabilityReport report =
+      solver::assess_stability(balance, evaluation.jacobian, at.q, at.frequency);
+  if (report.basis == solver::StabilityBasis::damped_linear) return std::nullopt;
+  return report.growth;
 }
 
 // The even half of the perturbations has the exponents of all; both are cut off at some harmonic.
@@ -110,11 +114,17 @@ TEST(OddMotions, ExponentsAreThoseOfAllHarmonics) {
   const Study lean = solved({"response.harmonics=9"});
   const solver::HarmonicSet odd_alone({1, 3, 5, 7, 9}, solver::HarmonicSet::Mean::left_out);
   double largest = 0.0;
+  int n_compared = 0;
   for (const solver::ResponsePoint& at : lean.curve.points) {
-    const double all = growth(solved_one, 9, at);
-    ASSERT_LT(all, 0.0);
-    largest = std::max(largest, std::abs(growth(solved_one, odd_alone, at) / all - 1.0));
+    const auto all = growth(solved_one, 9, at);
+    const auto of_odd = growth(solved_one, odd_alone, at);
+    EXPECT_EQ(all.has_value(), of_odd.has_value()) << at.frequency;
+    if (!all || !of_odd) continue;
+    ASSERT_LT(*all, 0.0);
+    largest = std::max(largest, std::abs(*of_odd / *all - 1.0));
+    ++n_compared;
   }
+  EXPECT_GT(n_compared, 10);
   std::cout << "exponents differ by " << largest << '\n';
   EXPECT_LT(largest, 1e-6);
 }
