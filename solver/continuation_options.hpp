@@ -33,6 +33,9 @@ struct ContinuationOptions {
   /// harmonics, much more in scenes of few modes. Where curves are traced for their peaks alone,
   /// nobody asks.
   bool judge_stability = true;
+  /// Solutions whose proof fails are no rows (curve/certificate.hpp). False: of curves that only a
+  /// search reads.
+  bool require_proof = true;
   /// Asked between the steps of choices, searches and followed peaks: true ends them with what
   /// there is. A curve itself is stopped by its observer.
   std::function<bool()> stop{};

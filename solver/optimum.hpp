@@ -65,8 +65,9 @@ struct OptimumOptions {
   std::optional<double> believed;
   ParameterScale scale = ParameterScale::logarithmic;
   /// Of a search for solutions beside the curve (ContinuationOptions::search_starts) at the best
-  /// value and at both ends of the interval that is as good to 1 %; 0:
-  /// none beside those the scene asks for.
+  /// value and at both ends of the interval that is as good to 1 %; 0: none beside those the scene
+  /// asks for. Where peaks need not be exact to rounding, with few harmonics; with all of them at
+  /// the best value alone, and only where few have found some.
   int search_starts = 2;
   Together together = one_by_one;  ///< curves that do not wait for one another
 };

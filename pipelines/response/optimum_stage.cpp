@@ -236,7 +236,13 @@ void OptimumSearch::complete(OptimumBracket& bracket) {
   });
   if (!bracket_by_few() || !varies || cut_short()) return;
   const Factors as_given{1.0, 1.0, few_harmonics};
-  solver::Optimum optimum = by_few_ ? *by_few_ : search(as_given, jobs_);
+  solver::Optimum optimum;
+  try {
+    optimum = by_few_ ? *by_few_ : search(as_given, jobs_);
+  } catch (const RefusedError& error) {
+    bracket.left_out.push_back(fmt::format("{} x 1: {}", friction, error.what()));
+    return;
+  }
   if (by_few_) tell_remedy(remedy_of(optimum.reason), optimum);
   bracket.entries.insert(
       bracket.entries.begin(),

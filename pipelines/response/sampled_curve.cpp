@@ -137,8 +137,8 @@ bool is_last(const ReducedModel& model) {
 }
 
 bool has_left_out(const solver::ResponseCurve& curve) {
-  return std::ranges::find(curve.log, solver::Remedy::row_left_out, &solver::SolverEvent::remedy) !=
-         curve.log.end();
+  return !curve.complete && std::ranges::find(curve.log, solver::Remedy::row_left_out,
+                                              &solver::SolverEvent::remedy) != curve.log.end();
 }
 
 /// Ended where it is to be traced again, with what is closer.

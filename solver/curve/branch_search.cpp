@@ -111,8 +111,10 @@ class Search {
 
   [[nodiscard]] std::vector<Eigen::VectorXd> known_at(double frequency) const {
     std::vector<Eigen::VectorXd> known;
+    ContinuationOptions all = options_;  // what is no row would be found again
+    all.require_proof = false;
     const auto add = [&](const ResponseCurve& curve) {
-      for (const auto& point : points_at_frequency(scene_, curve, frequency, options_)) {
+      for (const auto& point : points_at_frequency(scene_, curve, frequency, all)) {
         Eigen::VectorXd x = balance_->unknowns(point.q);
         if (point.orders != balance_->set().orders()) {
           NewtonResult solution = solve_at(*balance_, x, frequency, {});
@@ -240,6 +242,7 @@ class Search {
       curve_.contact_evaluations += solved.evaluations;
       if (!solved.why.empty()) {
         curve_.log.push_back({start.point.parameter, Remedy::row_left_out});
+        lacks("a solution left out for its " + solved.why);
         return;
       }
       curve_.detached.push_back({.points = {std::move(solved.point)}});
@@ -264,7 +267,15 @@ class Search {
     if (!branch.points.empty()) curve_.detached.push_back(std::move(branch));
   }
 
+  /// A curve that lacks a solution, beside it as well, is not complete.
+  void lacks(const std::string& what) {
+    curve_.complete = false;
+    if (curve_.diagnosis == Diagnosis::none) curve_.diagnosis = Diagnosis::uncertified;
+    curve_.message += (curve_.message.empty() ? "" : "; ") + ("beside the curve " + what);
+  }
+
   void count_work(const ResponseCurve& branch) {
+    if (branch.diagnosis == Diagnosis::uncertified) lacks(branch.message);
     curve_.iterations += branch.iterations;
     curve_.contact_evaluations += branch.contact_evaluations;
     std::ranges::copy_if(branch.log, std::back_inserter(curve_.log), [](const SolverEvent& event) {

@@ -46,6 +46,7 @@ ResponsePoint CurveTracer::certified(const NewtonResult& at, PointMark mark) {
 }
 
 std::string CurveTracer::objection_to(const ResponsePoint& point) {
+  if (!options_.require_proof) return {};
   Gates gates = gates_of(*balance_, point, options_.residual_tolerance);
   if (is_linear_) gates.residual = std::max(gates.residual, linear_rounding);
   return objection(point, gates);

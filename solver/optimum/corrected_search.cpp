@@ -65,14 +65,15 @@ class Correction {
   CorrectedSearch run(double believed) {
     CorrectedSearch result;
     try {
-      const Value& best = values_.at(settled(position(believed)));
-      result.highest = best.top;
-      result.optimum = found(best.highest, believed);
+      const double best = settled(position(believed));
+      result.highest = values_.at(best).top;
+      result.optimum = found(best, believed);
     } catch (const NeedsOtherSearch&) {
     } catch (const SearchStopped&) {
       result.optimum = out_of_time();
     }
     result.work = work_;
+    result.n_curves = n_curves_;
     return result;
   }
 
@@ -112,9 +113,11 @@ class Correction {
   /// A value is solved again from what its neighbours are by now. @return  whether it has become
   /// higher.
   bool is_raised(double position) {
-    const double before = amplitude(position);
+    Value before = values_.at(position);
+    const double lower = before.highest.amplitude;
     solve({position});
-    return amplitude(position) > (1.0 + options_.amplitude_tolerance) * before;
+    if (amplitude(position) < lower) values_.insert_or_assign(position, std::move(before));
+    return amplitude(position) > (1.0 + options_.amplitude_tolerance) * lower;
   }
 
   /// What a curve has told of a value is followed to its neighbours, as far as it raises them.
@@ -302,7 +305,7 @@ class Correction {
     if (carried.amplitude > (1.0 + options_.amplitude_tolerance) * top.point.amplitude) {
       value.highest = carried;
       value.highest.whole_curve = curve.complete;
-      value.highest.detached = true;
+      value.highest.detached = curve.complete && top.place != PeakPlace::unsolved;
       return;
     }
     value.highest.amplitude = top.point.amplitude;
@@ -484,7 +487,16 @@ class Correction {
     return optimum;
   }
 
-  std::string as_good_to_one_per_cent(double best) {
+  /// The interval that is as good to 1 %; stopped, of the values solved for.
+  std::string extent(double best, const std::vector<PeakOfParameter>& trace) {
+    try {
+      return interval_about(best);
+    } catch (const SearchStopped&) {  // the value itself is proved
+      return valley(trace, values_.at(best).highest);
+    }
+  }
+
+  std::string interval_about(double best) {
     const double low = edge_beside(best, -1.0).value_or(position(options_.lower));
     const double high = edge_beside(best, 1.0).value_or(position(options_.upper));
     std::ostringstream text;
@@ -493,14 +505,14 @@ class Correction {
     return text.str();
   }
 
-  Optimum found(const PeakOfParameter& best, double believed) {
+  Optimum found(double best, double believed) {
     Optimum optimum = with_values();
-    optimum.best = best;
+    optimum.best = values_.at(best).highest;
     optimum.found = true;
     optimum.n_curves = n_curves_;
-    optimum.message = "settled: " + as_good_to_one_per_cent(position(best.parameter));
+    optimum.message = "settled: " + extent(best, optimum.trace);
     const bool one_frequency = range_.frequency_begin == range_.frequency_end;
-    if (best.place == PeakPlace::range_end && !one_frequency) {
+    if (optimum.best.place == PeakPlace::range_end && !one_frequency) {
       optimum.message += "; the largest amplitude lies at an end of the frequency range";
     }
     std::ostringstream text;

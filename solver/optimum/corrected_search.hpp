@@ -8,8 +8,8 @@
 ///   A(p) ≈ max over f of a_f(p) c_f(p),     log c_f linear between the values with log (A_f / a_f)
 ///
 /// which costs what following with few harmonics costs. Its minimum is solved for as one value
-/// more, until it stays where a value is; likewise both ends of the interval that is as good to
-/// 1 %, and a neighbour on either side. Where a peak cannot be carried, and at the best value,
+/// more, until it stays where a value is; likewise, where peaks can be carried, both ends of the
+/// interval that is as good to 1 %, and neighbours on both sides. Where a peak cannot be carried, and at the best value,
 /// the whole curve with all harmonics tells the highest.
 ///
 /// A peak carried from a branch that few harmonics have found beside their curve counts like one of
@@ -29,6 +29,7 @@ struct CorrectedSearch {
   std::optional<Optimum> optimum;  ///< found, or out of time with the lowest value so far
   /// The highest point of the curve at the best value.
   std::optional<ResponsePoint> highest;
+  int n_curves = 0;  ///< traced whole
   /// What the search has cost beside that of the peaks with few harmonics; of `optimum` too.
   PeakWork work;
 };

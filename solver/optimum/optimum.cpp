@@ -94,6 +94,11 @@ bool is_one_frequency(const ContinuationOptions& range) {
   return range.frequency_begin == range.frequency_end;
 }
 
+void add_work(PeakWork& sum, const PeakTrace& trace, int sign) {
+  sum.iterations += sign * trace.iterations;
+  sum.contact_evaluations += sign * trace.contact_evaluations;
+}
+
 bool is_stopped(const Optimum& one) { return one.reason == NotFound::out_of_time; }
 
 /// What one search with harmonics given has found.
@@ -168,6 +173,7 @@ class SearchByFewFirst {
     Optimum result = first_.found ? about_first() : everywhere();
     add_work(result, first_);
     add_work(result, work_);
+    result.n_curves += n_curves_in_vain_;
     result.by_few = std::make_shared<const Optimum>(std::move(first_));
     return result;
   }
@@ -239,8 +245,11 @@ class SearchByFewFirst {
   /// Empty: that does not go.
   std::optional<Searched> by_correcting(const ContinuationOptions& given,
                                         const OptimumOptions& near) {
+    add_work(work_, few_.result(), -1);  // more of its peaks are followed
     CorrectedSearch corrected = search_corrected(few_, family_, given, near, first_.best.parameter);
+    add_work(work_, few_.result(), 1);
     if (!corrected.optimum) {
+      n_curves_in_vain_ += corrected.n_curves;
       work_.iterations += corrected.work.iterations;
       work_.contact_evaluations += corrected.work.contact_evaluations;
       return std::nullopt;
@@ -255,6 +264,7 @@ class SearchByFewFirst {
   PeakFamilies few_;
   Optimum first_;
   PeakWork work_;
+  int n_curves_in_vain_ = 0;
 };
 
 }  // namespace
@@ -264,6 +274,7 @@ Optimum minimise_peak(const SceneFamily& family, const ContinuationOptions& give
   check(options);
   ContinuationOptions range = given;
   range.judge_stability = false;
+  range.require_proof = false;
   const Clock::time_point begin = Clock::now();
   const bool many = range.harmonic_tolerance > 0.0 || range.n_harmonics > few;
   Optimum optimum = many ? SearchByFewFirst(family, range, options).run()
