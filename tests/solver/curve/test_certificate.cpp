@@ -150,7 +150,7 @@ std::string what_is_wrong(const FaultyForce::Fault& fault) {
   const ResponseCurve curve = solve_at_frequency(scene, slips_at, {});
   EXPECT_EQ(curve.complete, curve.message.empty());
   EXPECT_EQ(curve.points.size(), curve.complete ? 1 : 0);
-  if (!curve.complete) EXPECT_EQ(curve.diagnosis, Diagnosis::uncertified);
+  EXPECT_EQ(curve.diagnosis, curve.complete ? Diagnosis::none : Diagnosis::uncertified);
   return curve.message;
 }
 
