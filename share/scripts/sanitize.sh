@@ -16,7 +16,7 @@ slow="
   contact.test_friction_cycle_reference contact.test_line_events contact.test_line_events_jacobian
   contact.test_line_events_reference contact.test_planar_cycle_events contact.test_planar_cycle_jacobian
   contact.test_planar_cycle_reference contact.test_planar_steady contact.test_sampled_line contact.test_sampled_plane
-  contact.test_sleeping_set contact.test_surface_line_events contact.test_surface_line_events_reference
+  contact.test_sleeping_set contact.test_surface_line_events contact.test_surface_line_events_reference contact.test_work_error
   solver.test_common_harmonics solver.test_enrichment solver.test_floquet solver.test_modal_enclosure solver.test_optimum
   solver.test_peak_harmonics solver.test_peak_trace solver.test_point_shift solver.test_richer_peak
   solver.test_special_points solver.test_time_integration

@@ -9,8 +9,8 @@
 ///
 /// which costs what following with few harmonics costs. Its minimum is solved for as one value
 /// more, until it stays where a value is; likewise, where peaks can be carried, both ends of the
-/// interval that is as good to 1 %, and neighbours on both sides. Where a peak cannot be carried, and at the best value,
-/// the whole curve with all harmonics tells the highest.
+/// interval that is as good to 1 %, and neighbours on both sides. Where a peak cannot be carried,
+/// and at the best value, the whole curve with all harmonics tells the highest.
 ///
 /// A peak carried from a branch that few harmonics have found beside their curve counts like one of
 /// the curve; where they have found none, none is looked for with all harmonics.
