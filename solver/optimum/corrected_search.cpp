@@ -207,20 +207,28 @@ class Correction {
     return here != values_.begin() ? std::optional(std::prev(here)->first) : std::nullopt;
   }
 
-  /// Of values that are as low as the lowest, within the tolerance, the one in the middle of what
-  /// is as good: at the edge of a steep flank a little changes much.
-  double robust_value() {
-    const double lowest = lowest_value();
-    const double low = edge_beside(lowest, -1.0).value_or(position(options_.lower));
-    const double high = edge_beside(lowest, 1.0).value_or(position(options_.upper));
-    const double limit = (1.0 + options_.amplitude_tolerance) * amplitude(lowest);
-    double best = lowest;
+  /// Of values that are as low as the lowest, within the tolerance, the one whose neighbours are
+  /// lowest: at the foot of a steep flank a little changes much.
+  [[nodiscard]] double robust_value() const {
+    const double limit =
+        (1.0 + options_.amplitude_tolerance) * values_.at(lowest_value()).highest.amplitude;
+    double best = lowest_value();
     for (const auto& [at, value] : values_) {
-      const bool nearer =
-          std::abs(at - std::midpoint(low, high)) < std::abs(best - std::midpoint(low, high));
-      if (value.highest.amplitude <= limit && at >= low && at <= high && nearer) best = at;
+      const bool is_low = value.highest.amplitude <= limit;
+      if (is_low && higher_neighbour(at) < higher_neighbour(best)) best = at;
     }
     return best;
+  }
+
+  /// Its amplitude; infinite where one is missing.
+  [[nodiscard]] double higher_neighbour(double position) const {
+    double amplitude = 0.0;
+    for (const double direction : {-1.0, 1.0}) {
+      const std::optional<double> beside = neighbour(position, direction);
+      if (!beside) return std::numeric_limits<double>::infinity();
+      amplitude = std::max(amplitude, values_.at(*beside).highest.amplitude);
+    }
+    return amplitude;
   }
 
   [[nodiscard]] double lowest_value() const {
@@ -487,30 +495,12 @@ class Correction {
     return optimum;
   }
 
-  /// The interval that is as good to 1 %; stopped, of the values solved for.
-  std::string extent(double best, const std::vector<PeakOfParameter>& trace) {
-    try {
-      return interval_about(best);
-    } catch (const SearchStopped&) {  // the value itself is proved
-      return valley(trace, values_.at(best).highest);
-    }
-  }
-
-  std::string interval_about(double best) {
-    const double low = edge_beside(best, -1.0).value_or(position(options_.lower));
-    const double high = edge_beside(best, 1.0).value_or(position(options_.upper));
-    std::ostringstream text;
-    text.precision(4);
-    text << "as good to 1 % from " << parameter(low) << " to " << parameter(high);
-    return text.str();
-  }
-
-  Optimum found(double best, double believed) {
+  [[nodiscard]] Optimum found(double best, double believed) const {
     Optimum optimum = with_values();
     optimum.best = values_.at(best).highest;
     optimum.found = true;
     optimum.n_curves = n_curves_;
-    optimum.message = "settled: " + extent(best, optimum.trace);
+    optimum.message = "settled: " + valley(optimum.trace, optimum.best);
     const bool one_frequency = range_.frequency_begin == range_.frequency_end;
     if (optimum.best.place == PeakPlace::range_end && !one_frequency) {
       optimum.message += "; the largest amplitude lies at an end of the frequency range";

@@ -453,7 +453,7 @@ TEST(MinimisePeak, OfPeaksCorrectedFromFewHarmonicsIsThatOfMany) {
       // A branch beside the curve may be higher.
       EXPECT_GT(peak.amplitude, 0.98 * highest_with(one.family(peak.parameter), one.range))
           << peak.parameter;
-      // Of equal ones it is the one in the middle.
+      // Of equal ones it is the one with the lowest neighbours.
       EXPECT_GE(peak.amplitude, (1.0 - 3e-3) * optimum.best.amplitude);
     }
   }
