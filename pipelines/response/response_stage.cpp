@@ -549,7 +549,8 @@ CurveMaps curve_maps(const ReducedModel& model, const SceneDescription& scene,
       }
       if (points.empty()) {
         drawn.missing.push_back(
-            fmt::format("curve {}: no map at {:g} Hz, where it has no solution: set response.maps "
+            fmt::format("curve {}: no map at {:g} Hz, where it has no solution, or none whose "
+                        "proof passes: set response.maps "
                         "to frequencies that it passes, or response.frequency to a range with it",
                         result.name, *frequency));
       }

@@ -175,7 +175,8 @@ bool CurveTracer::walk(BranchWalker& walker) {
       return false;
     }
     const std::size_t n_before = curve_.points.size();
-    if (!add_specials(walker, 1.0) || !add(walker.now().solution)) {
+    if (!add_specials(walker, 1.0) ||
+        !add(walker.now().solution, PointMark::none, Held::place_on_the_branch)) {
       stop(Diagnosis::interrupted, at_hertz("stopped", frequency));
       return false;
     }

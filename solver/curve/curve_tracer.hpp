@@ -13,6 +13,7 @@
 #include "solver/branch/branch_walker.hpp"
 #include "solver/branch/special_points.hpp"
 #include "solver/continuation.hpp"
+#include "solver/curve/certificate.hpp"
 #include "solver/stability/stability.hpp"
 
 namespace microslip::solver {
@@ -56,7 +57,9 @@ class CurveTracer {
   [[nodiscard]] std::string objection_to(const ResponsePoint& point);
   /// Where its proof fails the solution is solved closer, and left out if that does not help.
   /// False: the observer asked to stop, or too many were left out.
-  [[nodiscard]] bool add(const NewtonResult& at, PointMark mark = PointMark::none);
+  /// @param held  while it is solved closer.
+  [[nodiscard]] bool add(const NewtonResult& at, PointMark mark = PointMark::none,
+                         Held held = Held::frequency);
   [[nodiscard]] bool add(ResponsePoint point);
   [[nodiscard]] bool add_certified(ResponsePoint point);
   [[nodiscard]] bool leave_out(const ResponsePoint& point, const std::string& why);

@@ -52,10 +52,9 @@ std::string CurveTracer::objection_to(const ResponsePoint& point) {
   return objection(point, gates);
 }
 
-bool CurveTracer::add(const NewtonResult& at, PointMark mark) {
+bool CurveTracer::add(const NewtonResult& at, PointMark mark, Held held) {
   ResponsePoint point = certified(at, mark);
   if (objection_to(point).empty()) return add_certified(std::move(point));
-  const Held held = mark == PointMark::none ? Held::frequency : Held::place_on_the_branch;
   const NewtonResult closer = solved_closer(*balance_, at, held);
   curve_.contact_evaluations += closer.evaluations;
   return add(certified(closer, mark));
@@ -114,7 +113,7 @@ bool CurveTracer::add_specials(BranchWalker& walker, double share_of_segment) {
   for (const SpecialPoint& special : found) {
     if (!(special.share < share_of_segment)) continue;
     if (!special.solved) note_unsolved(special.solution.point.parameter, special.mark);
-    if (!add(special.solution, special.mark)) return false;
+    if (!add(special.solution, special.mark, Held::place_on_the_branch)) return false;
   }
   return true;
 }
