@@ -37,9 +37,6 @@ class Peaks {
         std::log(load / before->parameter) / std::log(after->parameter / before->parameter);
     return std::pow(before->amplitude, 1.0 - share) * std::pow(after->amplitude, share);
   }
-  [[nodiscard]] bool reach(double load) const {
-    return load >= trace_.front().parameter && load <= trace_.back().parameter;
-  }
 
  private:
   const std::vector<solver::PeakOfParameter>& trace_;  // by parameter
@@ -60,22 +57,20 @@ bool is_beside_detached(const solver::Optimum& optimum) {
   return (after != trace.end() && after->detached) || (before != trace.rend() && before->detached);
 }
 
-/// The search has followed the peaks of these curves.
+/// The search has followed the peaks of these curves. Beside the best preload a curve may be higher
+/// than what was followed there, not as high as where a peak has jumped: that says nothing of its
+/// place.
 bool are_those_followed(const Values& amplitudes, const solver::Optimum& optimum) {
   constexpr double same = 0.01;   // at the best preload itself
   constexpr double nearly = 0.1;  // between values that were solved for
-  constexpr double jumped = 2.0;  // times the lowest: another peak, whose place says nothing of it
+  constexpr double jumped = 2.0;  // times the lowest
   const Peaks followed(optimum.trace);
   const double best = optimum.best.parameter;
   if (is_beside_detached(optimum)) return false;
   for (std::size_t i = 0; i < amplitudes.size(); ++i) {
-    const double other = followed.at(neighbours[i] * best);
-    const double change = amplitudes[i] / other - 1.0;
-    const double allowed = i == middle ? same : nearly;
-    // The search ends where the peaks have risen: beyond they may be higher.
-    const bool rises = !followed.reach(neighbours[i] * best) && change > -allowed &&
-                       amplitudes[i] < jumped * amplitudes[middle];
-    if (!rises && !(std::abs(change) < allowed)) return false;
+    const double change = amplitudes[i] / followed.at(neighbours[i] * best) - 1.0;
+    const bool is_same = i == middle ? std::abs(change) < same : change > -nearly;
+    if (!is_same || !(amplitudes[i] < jumped * amplitudes[middle])) return false;
   }
   return true;
 }

@@ -1,16 +1,11 @@
 /// @file
-/// The best value of a parameter with many harmonics, out of peaks that few of them have followed.
+/// The best value of a parameter with many harmonics, out of peaks that few of them have followed
+/// and that are corrected at a few values (corrected_peaks.hpp).
 ///
-/// At a few values p every high peak f with few harmonics, a_f(p), is carried to the one with all
-/// of them, A_f(p) (enrichment/carried_peak.hpp). Their ratio varies slowly along a family, so that
-/// between and beside these values
-///
-///   A(p) ≈ max over f of a_f(p) c_f(p),     log c_f linear between the values with log (A_f / a_f)
-///
-/// which costs what following with few harmonics costs. Its minimum is solved for as one value
-/// more, until it stays where a value is; likewise, where peaks can be carried, both ends of the
-/// interval that is as good to 1 %, and neighbours on both sides. Where a peak cannot be carried,
-/// and at the best value, the whole curve with all harmonics tells the highest.
+/// The minimum of the corrected peaks is solved for as one value more, until it stays where a value
+/// is; likewise, where peaks can be carried, both ends of the interval that is as good to 1 %, and
+/// neighbours on both sides. The whole curve at the best value, with all harmonics, must have no
+/// higher peak.
 ///
 /// A peak carried from a branch that few harmonics have found beside their curve counts like one of
 /// the curve; where they have found none, none is looked for with all harmonics.

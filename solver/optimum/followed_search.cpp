@@ -67,10 +67,10 @@ class Search {
   [[nodiscard]] double the_same() const { return 1.0 + options_.amplitude_tolerance; }
 
   [[nodiscard]] double parameter(double position) const {
-    return options_.scale == ParameterScale::logarithmic ? std::exp(position) : position;
+    return parameter_at(options_.scale, position);
   }
   [[nodiscard]] double position(double parameter) const {
-    return options_.scale == ParameterScale::logarithmic ? std::log(parameter) : parameter;
+    return position_on(options_.scale, parameter);
   }
 
   static Place lowest(const std::vector<PeakOfParameter>& peaks) {

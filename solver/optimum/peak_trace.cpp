@@ -81,7 +81,7 @@ PeakFamilies::PeakFamilies(const SceneFamily& family, const ContinuationOptions&
 }
 
 double PeakFamilies::position(double parameter) const {
-  return options_.scale == ParameterScale::logarithmic ? std::log(parameter) : parameter;
+  return position_on(options_.scale, parameter);
 }
 
 /// The position asked for before, where exp and log have only rounded it.
@@ -93,7 +93,7 @@ double PeakFamilies::known_position(double parameter) const {
 }
 
 double PeakFamilies::parameter(double position) const {
-  return options_.scale == ParameterScale::logarithmic ? std::exp(position) : position;
+  return parameter_at(options_.scale, position);
 }
 
 double PeakFamilies::value_position(int index) const {

@@ -34,6 +34,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/optimum/parameter_scale.hpp"
 #include "solver/peak/high_points.hpp"
 #include "solver/peak/local_peak.hpp"
 
@@ -41,8 +42,6 @@ namespace microslip::solver {
 
 /// Scene for a value of the parameter.
 using SceneFamily = std::function<Scene(double parameter)>;
-
-enum class ParameterScale { logarithmic, linear };
 
 /// Runs task(i) for every i < n, in any order and on any thread.
 using Together = std::function<void(std::size_t n, const std::function<void(std::size_t)>& task)>;

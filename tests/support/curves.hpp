@@ -27,4 +27,14 @@ namespace microslip::tests {
   return list;
 }
 
+/// The largest amplitude of a whole curve, ends of the range included [m].
+[[nodiscard]] inline double highest_of_curve(const solver::Scene& scene,
+                                             const solver::ContinuationOptions& options) {
+  double highest = 0.0;
+  for (const auto& point : solver::trace_response(scene, options).points) {
+    highest = std::max(highest, point.amplitude);
+  }
+  return highest;
+}
+
 }  // namespace microslip::tests

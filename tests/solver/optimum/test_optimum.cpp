@@ -48,11 +48,7 @@ double highest_peak(double preload) {
 
 /// What an engineer means by the peak of a range: the largest amplitude on it, ends included.
 double largest_amplitude(double preload, const ContinuationOptions& options) {
-  double largest = 0.0;
-  for (const auto& point : trace_response(rubbing(preload), options).points) {
-    largest = std::max(largest, point.amplitude);
-  }
-  return largest;
+  return tests::highest_of_curve(rubbing(preload), options);
 }
 
 OptimumOptions preloads(double lower, double upper) {
@@ -412,14 +408,6 @@ OptimumOptions coarse(OptimumOptions options) {
   return options;
 }
 
-double highest_with(const Scene& scene, const ContinuationOptions& options) {
-  double highest = 0.0;
-  for (const auto& point : trace_response(scene, options).points) {
-    highest = std::max(highest, point.amplitude);
-  }
-  return highest;
-}
-
 TEST(MinimisePeak, OfPeaksCorrectedFromFewHarmonicsIsThatOfMany) {
   // The peak over the preload has a smooth minimum, and one where a peak vanishes.
   struct Case {
@@ -447,11 +435,13 @@ TEST(MinimisePeak, OfPeaksCorrectedFromFewHarmonicsIsThatOfMany) {
     EXPECT_TRUE(optimum.found) << optimum.message;
     EXPECT_TRUE(optimum.best.whole_curve);
     EXPECT_NEAR(optimum.best.amplitude, reference.best.amplitude, 5e-3 * reference.best.amplitude);
-    EXPECT_NEAR(optimum.best.amplitude, highest_with(one.family(optimum.best.parameter), one.range),
+    EXPECT_NEAR(optimum.best.amplitude,
+                tests::highest_of_curve(one.family(optimum.best.parameter), one.range),
                 1e-7 * optimum.best.amplitude);
     for (const PeakOfParameter& peak : optimum.trace) {
       // A branch beside the curve may be higher.
-      EXPECT_GT(peak.amplitude, 0.98 * highest_with(one.family(peak.parameter), one.range))
+      EXPECT_GT(peak.amplitude,
+                0.98 * tests::highest_of_curve(one.family(peak.parameter), one.range))
           << peak.parameter;
       // Of equal ones it is the one with the lowest neighbours.
       EXPECT_GE(peak.amplitude, (1.0 - 3e-3) * optimum.best.amplitude);

@@ -32,15 +32,6 @@ PeakTraceOptions between(double lower, double upper, int n_values) {
   return options;
 }
 
-/// The largest amplitude of a whole curve, ends of the range included.
-double highest_of_curve(const Scene& scene, const ContinuationOptions& options) {
-  double highest = 0.0;
-  for (const auto& point : trace_response(scene, options).points) {
-    highest = std::max(highest, point.amplitude);
-  }
-  return highest;
-}
-
 /// A random scene with all preloads and gaps times a factor.
 Scene with_preload(std::uint64_t seed, double factor) {
   tests::RandomScene random = tests::random_scene(seed);
@@ -59,7 +50,8 @@ TEST(PeakTrace, OfTheChainIsThatOfWholeCurves) {
   EXPECT_LT(trace.n_curves, 8);
   for (const PeakOfParameter& peak : trace.peaks) {
     // Two solutions of one peak differ by rounding.
-    EXPECT_NEAR(peak.amplitude, highest_of_curve(tests::chain_scene(peak.parameter), chain_range()),
+    EXPECT_NEAR(peak.amplitude,
+                tests::highest_of_curve(tests::chain_scene(peak.parameter), chain_range()),
                 1e-10 * peak.amplitude)
         << peak.parameter;
   }
@@ -71,7 +63,7 @@ TEST(PeakTrace, FollowsPeaksThatLieBesideFolds) {
   ASSERT_EQ(trace.peaks.size(), 25U);
   EXPECT_LT(trace.n_curves, 13);
   for (const PeakOfParameter& peak : trace.peaks) {
-    EXPECT_NEAR(peak.amplitude, highest_of_curve(family(peak.parameter), chain_range()),
+    EXPECT_NEAR(peak.amplitude, tests::highest_of_curve(family(peak.parameter), chain_range()),
                 1e-10 * peak.amplitude)
         << peak.parameter;
   }
@@ -144,7 +136,8 @@ TEST(PeakTrace, TakesAnyParameterOnALinearScale) {
   const PeakTrace trace = tests::traced_peaks(family, frequency_range(0.5, 2.5), options);
   ASSERT_EQ(trace.peaks.size(), 17U);
   for (const PeakOfParameter& peak : trace.peaks) {
-    EXPECT_NEAR(peak.amplitude, highest_of_curve(family(peak.parameter), frequency_range(0.5, 2.5)),
+    EXPECT_NEAR(peak.amplitude,
+                tests::highest_of_curve(family(peak.parameter), frequency_range(0.5, 2.5)),
                 1e-10 * peak.amplitude)
         << peak.parameter;
   }
@@ -190,7 +183,7 @@ TEST(PeakTrace, OfRandomScenesIsThatOfWholeCurves) {
       const PeakTrace trace = tests::traced_peaks(family, options, sought);
       values += static_cast<int>(trace.peaks.size());
       for (const PeakOfParameter& peak : trace.peaks) {
-        const double whole = highest_of_curve(family(peak.parameter), options);
+        const double whole = tests::highest_of_curve(family(peak.parameter), options);
         EXPECT_NEAR(peak.amplitude, whole, tolerance * whole)
             << seed << " factor " << peak.parameter;
       }
@@ -214,7 +207,7 @@ TEST(PeakTrace, OfPeaksThatEnterAndLeaveTheRangeIsThatOfWholeCurves) {
     EXPECT_EQ(trace.peaks.size(), 9U) << seed;
     for (const PeakOfParameter& peak : trace.peaks) {
       (peak.place == PeakPlace::range_end ? at_an_end : at_a_peak) += 1;
-      const double whole = highest_of_curve(family(peak.parameter), options);
+      const double whole = tests::highest_of_curve(family(peak.parameter), options);
       EXPECT_NEAR(peak.amplitude, whole, 1e-8 * whole) << seed << " factor " << peak.parameter;
     }
   }
