@@ -22,7 +22,7 @@ set(face_mesh blade_geometry count_text element_block element_shape element_type
 set(face_fem attachment bending_error given_matrices machine_memory material memory_forecast modal_analysis modal_basis modal_mass
   petsc_error rank_messages ranks rotation slepc_session solver_kind surface_load)
 set(face_contact bracketed_root contact_effects contact_force contact_map contact_state contact_states dense harmonics modal_force
-  motion_coordinates patch phase point_cycle spare_cores transient_force)
+  motion_coordinates patch phase point_cycle spare_cores transient_force trigonometric_basis)
 set(face_solver continuation continuation_options diagnosis point_shift optimum response_curve richer_peak scene time_integration
   time_options)
 set(face_pipelines study commands)

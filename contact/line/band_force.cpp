@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "contact/line/band_quadrature.hpp"
-#include "contact/numerics/trigonometric_basis.hpp"
+#include "contact/trigonometric_basis.hpp"
 
 namespace microslip::contact {
 BandWork band_work(SliderBand& band, const BandCycle& cycle) {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/numerics/trigonometric_basis.hpp"
 #include "contact/phase.hpp"
+#include "contact/trigonometric_basis.hpp"
 
 namespace microslip::contact {
 namespace {

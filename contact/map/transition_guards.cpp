@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "contact/closed_form/slip_functions.hpp"
+#include "contact/trigonometric_basis.hpp"
 
 namespace microslip::contact {
 namespace {
@@ -21,14 +22,13 @@ struct Sample {
 
 Sample sample_at(const SurfaceLaw& law, const Harmonics& motion, double frequency, bool along_r,
                  double phase) {
-  const Eigen::VectorXd now = motion.at(phase);
-  Eigen::Vector2d rate = Eigen::Vector2d::Zero();
-  for (int h = 1; h <= motion.n_harmonics(); ++h) {
-    const double sine = h * std::sin(h * phase);
-    const double cosine = h * std::cos(h * phase);
-    rate[0] += cosine * motion.sine(h)[0] - sine * motion.cosine(h)[0];
-    if (along_r) rate[1] += cosine * motion.sine(h)[2] - sine * motion.cosine(h)[2];
-  }
+  Eigen::VectorXd basis;
+  Eigen::VectorXd slope;
+  trigonometric_basis(motion.n_harmonics(), phase, basis);
+  basis_rate(basis, slope);
+  const Eigen::VectorXd now = motion.rows().transpose() * basis;
+  const Eigen::VectorXd change = motion.rows().transpose() * slope;
+  const Eigen::Vector2d rate(change[0], along_r ? change[2] : 0.0);
   const SurfaceState state = law.at(now[1], frequency * rate.norm());
   return {now[0],
           along_r ? now[2] : 0.0,

@@ -1,8 +1,9 @@
 #include "contact/harmonics.hpp"
 
-#include <cmath>
 #include <stdexcept>
 #include <string>
+
+#include "contact/trigonometric_basis.hpp"
 
 namespace microslip::contact {
 
@@ -26,12 +27,9 @@ Harmonics::Harmonics(int n_harmonics, Eigen::Index n_signals,
 }
 
 Eigen::VectorXd Harmonics::at(double phase) const {
-  Eigen::VectorXd values = mean().transpose();
-  for (int h = 1; h <= n_harmonics(); ++h) {
-    values +=
-        std::sin(h * phase) * sine(h).transpose() + std::cos(h * phase) * cosine(h).transpose();
-  }
-  return values;
+  Eigen::VectorXd basis;
+  trigonometric_basis(n_harmonics(), phase, basis);
+  return rows_.transpose() * basis;
 }
 
 }  // namespace microslip::contact

@@ -1,4 +1,4 @@
-#include "contact/numerics/trigonometric_basis.hpp"
+#include "contact/trigonometric_basis.hpp"
 
 #include <cmath>
 

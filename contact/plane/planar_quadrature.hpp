@@ -10,8 +10,8 @@
 
 #include <Eigen/Core>
 
-#include "contact/numerics/trigonometric_basis.hpp"
 #include "contact/plane/planar_motion.hpp"
+#include "contact/trigonometric_basis.hpp"
 
 namespace microslip::contact {
 

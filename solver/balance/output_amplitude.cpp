@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "contact/phase.hpp"
+#include "contact/trigonometric_basis.hpp"
 
 namespace microslip::solver {
 namespace {
@@ -25,19 +26,43 @@ struct Wave {
   }
 };
 
-/// Phase of the largest value of sign · y: the best of a grid, then Newton on the slope.
-double phase_of_extremum(const Wave& wave, double sign) {
-  const auto n_grid = 32 * wave.y.size();
-  double best = 0.0;
-  double value = -std::numeric_limits<double>::infinity();
+/// Weights of [y₀, y_s1, y_c1, …] in y(θ).
+Eigen::VectorXd weights_at(const Eigen::VectorXd& y, double phase) {
+  Eigen::VectorXd values;
+  contact::trigonometric_basis(static_cast<int>(y.size() / 2), phase, values);
+  return values;
+}
+
+/// Phases of a grid where y is largest and smallest.
+struct GridExtrema {
+  double high = 0.0, low = 0.0, cell = 0.0;  // [rad]
+};
+
+GridExtrema extrema_on_grid(const Eigen::VectorXd& y) {
+  const auto n_grid = 32 * y.size();
+  GridExtrema found;
+  found.cell = contact::two_pi / static_cast<double>(n_grid);
+  double largest = -std::numeric_limits<double>::infinity();
+  double smallest = -largest;
+  Eigen::VectorXd weights;  // by recurrence: a sine for each harmonic would cost as much as a force
   for (Eigen::Index i = 0; i < n_grid; ++i) {
-    const double phase = contact::two_pi * static_cast<double>(i) / static_cast<double>(n_grid);
-    if (const double here = sign * wave.derivative(phase, 0); here > value) {
-      value = here;
-      best = phase;
+    const double phase = found.cell * static_cast<double>(i);
+    contact::trigonometric_basis(static_cast<int>(y.size() / 2), phase, weights);
+    const double here = weights.dot(y);
+    if (here > largest) {
+      largest = here;
+      found.high = phase;
+    }
+    if (here < smallest) {
+      smallest = here;
+      found.low = phase;
     }
   }
-  const double cell = contact::two_pi / static_cast<double>(n_grid);
+  return found;
+}
+
+/// Phase of the largest value of sign · y within a cell of `best`, by Newton on the slope.
+double phase_of_extremum(const Wave& wave, double sign, double best, double cell) {
   double phase = best;
   for (int i = 0; i < 20; ++i) {
     const double curvature = wave.derivative(phase, 2);
@@ -48,17 +73,6 @@ double phase_of_extremum(const Wave& wave, double sign) {
     if (std::abs(step) < 1e-15) break;
   }
   return phase;
-}
-
-/// Weights of [y₀, y_s1, y_c1, …] in y(θ).
-Eigen::VectorXd basis(Eigen::Index n_rows, double phase) {
-  Eigen::VectorXd values(n_rows);
-  values[0] = 1.0;
-  for (Eigen::Index h = 1; 2 * h < n_rows; ++h) {
-    values[2 * h - 1] = std::sin(static_cast<double>(h) * phase);
-    values[2 * h] = std::cos(static_cast<double>(h) * phase);
-  }
-  return values;
 }
 
 Eigen::VectorXd gradient_of(const Eigen::VectorXd& weights, const Eigen::VectorXd& output) {
@@ -82,10 +96,11 @@ OutputAmplitude output_amplitude(const contact::Harmonics& q, const Eigen::Vecto
     result.gradient = gradient_of(weights, output);
     return result;
   }
-  const double high = phase_of_extremum(wave, 1.0);
-  const double low = phase_of_extremum(wave, -1.0);
+  const GridExtrema grid = extrema_on_grid(y);
+  const double high = phase_of_extremum(wave, 1.0, grid.high, grid.cell);
+  const double low = phase_of_extremum(wave, -1.0, grid.low, grid.cell);
   result.half_peak_to_peak = 0.5 * (wave.derivative(high, 0) - wave.derivative(low, 0));
-  result.gradient = gradient_of(0.5 * (basis(y.size(), high) - basis(y.size(), low)), output);
+  result.gradient = gradient_of(0.5 * (weights_at(y, high) - weights_at(y, low)), output);
   return result;
 }
 

@@ -9,9 +9,9 @@
 #include <gtest/gtest.h>
 #include <Eigen/Eigenvalues>
 
-#include "contact/numerics/trigonometric_basis.hpp"
 #include "contact/transient/patch_transient.hpp"
 #include "contact/transient/planar_transient.hpp"
+#include "contact/trigonometric_basis.hpp"
 #include "solver/balance/linear_force.hpp"
 #include "solver/continuation.hpp"
 #include "tests/solver/duffing.hpp"
