@@ -20,14 +20,6 @@
 
 namespace microslip::pipelines {
 
-namespace {
-
-double degrees_of_freedom(const Solution& solution) {
-  return solution.structure ? 3.0 * static_cast<double>(solution.structure->mesh.n_nodes()) : 0.0;
-}
-
-}  // namespace
-
 int run_study(const SceneDescription& asked, const RunOptions& options) {
   begin_in(options.output, [&] { require_response(asked); });
   begin_deadline(asked.accuracy.budget);
@@ -46,7 +38,7 @@ int run_study(const SceneDescription& asked, const RunOptions& options) {
     record.keep_choices(scene);
     record.stage("accuracy");
     record.progress().expect(accuracy_seconds(solution.model, scene, solution.curves,
-                                              degrees_of_freedom(solution), options.jobs));
+                                              solution.degrees_of_freedom(), options.jobs));
     solution.budgets = budgets_of(solution.model, scene, solution.structure.get(), options.jobs,
                                   solution.curves, record.progress());
     keep_budgets(solution, record);

@@ -199,6 +199,7 @@ Moves moves_of(const std::string& source, const SceneDescription& scene, double 
 struct Plan {
   std::map<std::string, const Move*> moves{};
   double seconds = none;  ///< of the round
+  double curve_seconds = none;
 };
 
 double bar_of(const Errors& errors) {
@@ -313,7 +314,8 @@ class Plans {
     });
     const double again =
         only_harmonics ? spent_.inexact_curves.value_or(spent_.curves) : spent_.curves;
-    plan.seconds = structure * spent_.structure + curves * again;
+    plan.curve_seconds = curves * again;
+    plan.seconds = structure * spent_.structure + plan.curve_seconds;
     const bool does_nothing =
         std::ranges::all_of(plan.moves, [](const auto& one) { return one.second->text.empty(); });
     if (!does_nothing && plan.seconds <= spent_.available) offer(plan);
@@ -422,7 +424,8 @@ std::optional<Refinement> refinement(const SceneDescription& scene,
   left = stuck_sources(moves, errors, tolerance);
   const Plans plans(errors, moves, spent, tolerance);
   const Plan& plan = plans.best();
-  Refinement result{.scene = scene, .text = {}, .seconds = plan.seconds};
+  Refinement result{
+      .scene = scene, .text = {}, .seconds = plan.seconds, .curve_seconds = plan.curve_seconds};
   result.only_harmonics = true;
   std::vector<std::string> texts;
   for (const auto& [source, move] : plan.moves) {

@@ -19,7 +19,8 @@ struct Refinement {
   std::string text;             ///< what is refined, for the log
   bool new_mesh = false;        ///< mesh and modes are solved for again
   bool only_harmonics = false;  ///< curves that are exact enough may stay
-  double seconds = 0.0;         ///< about, of the round
+  double seconds = 0.0;         ///< about, of the round; 0: not known
+  double curve_seconds = 0.0;   ///< of those, of its curves
 };
 
 /// What a scene has cost so far.

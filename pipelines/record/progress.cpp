@@ -110,7 +110,7 @@ void Progress::stage(const std::string& name) {
   end_stage();
   stage_ = name;
   parts_.clear();
-  stage_begin_ = Clock::now();
+  stage_begin_ = part_begin_ = Clock::now();
   expected_ = 0.0;
   has_points_ = false;
   fraction_ = 0.0;
@@ -122,7 +122,10 @@ void Progress::stage(const std::string& name) {
 
 void Progress::expect(double seconds) {
   const std::lock_guard lock(mutex_);
+  part_begin_ = Clock::now();
   expected_ = seconds;
+  has_points_ = false;
+  fraction_ = 0.0;
 }
 
 Progress::Part Progress::part(const std::string& what) {
@@ -144,15 +147,21 @@ void Progress::start_clock() {
   }
 }
 
-std::string Progress::time_text(double elapsed) const {
-  std::string text = fmt::format("{}  {}", stage_, duration_text(elapsed));
+double Progress::seconds_left(Clock::time_point now) const {
+  const double elapsed = Seconds(now - part_begin_).count();
+  const bool is_told = fraction_ > first_guess && fraction_ < 1.0;
+  return is_told ? elapsed * (1.0 - fraction_) / fraction_ : expected_ - elapsed;
+}
+
+std::string Progress::time_text(Clock::time_point now) const {
+  std::string text =
+      fmt::format("{}  {}", stage_, duration_text(Seconds(now - stage_begin_).count()));
   if (!parts_.empty()) text += ": " + parts_.rbegin()->second;
-  if (fraction_ > first_guess && fraction_ < 1.0) {
-    return text + ", some " + duration_text(elapsed * (1.0 - fraction_) / fraction_) + " left";
-  }
+  const double left = seconds_left(now);
+  if (left > 0.0) return text + ", some " + duration_text(left) + " left";
   if (expected_ == 0.0) return text;
-  if (elapsed < expected_) return text + ", some " + duration_text(expected_ - elapsed) + " left";
-  return text + ", where " + duration_text(expected_) + " were expected";
+  const double before = Seconds(part_begin_ - stage_begin_).count();
+  return text + ", where " + duration_text(before + expected_) + " were expected";
 }
 
 void Progress::tell_time(const std::stop_token& stop) {
@@ -164,7 +173,7 @@ void Progress::tell_time(const std::stop_token& stop) {
     const Clock::time_point now = Clock::now();
     if (stage_.empty() || now - std::max(last_drawn_, stage_begin_) < silence) continue;
     last_drawn_ = now;
-    const std::string line = time_text(Seconds(now - stage_begin_).count());
+    const std::string line = time_text(now);
     if (terminal_) {
       draw_live(line);
     } else {
@@ -186,11 +195,8 @@ void Progress::point(const std::string& curve, const solver::ResponsePoint& poin
   const Clock::time_point now = Clock::now();
   if (now - last_drawn_ < (terminal_ ? redraw_interval : plain_interval)) return;
   last_drawn_ = now;
-  const double elapsed = Seconds(now - stage_begin_).count();
   std::string line = fmt::format("{}  {}", stage_, text);
-  if (fraction > first_guess) {
-    line += "  " + duration_text(elapsed * (1.0 - fraction) / fraction) + " left";
-  }
+  if (fraction > first_guess) line += "  " + duration_text(seconds_left(now)) + " left";
   if (terminal_) {
     draw_live(line);
   } else {

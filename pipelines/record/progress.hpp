@@ -50,8 +50,9 @@ class Progress {
 
   /// Ends the stage before and begins this one.
   void stage(const std::string& name);
-  /// What this stage is expected to take [s]; 0: not known. While it says nothing else, a stage
-  /// tells every second on a terminal, every ten elsewhere, how long it has taken and what is left.
+  /// What this stage, or what of it begins now, is expected to take [s]; 0: not known. While it
+  /// says nothing else, a stage tells every second on a terminal, every ten elsewhere, how long it
+  /// has taken and what is left.
   void expect(double seconds);
   /// What of this stage is being done, for those lines, as long as the object lives; of several the
   /// one begun last.
@@ -70,7 +71,8 @@ class Progress {
   };
   [[nodiscard]] Part part(const std::string& what);
   /// A point of a curve is finished.
-  /// @param fraction  of the stage that is done, 0 … 1, for the time left; below 0: not known.
+  /// @param fraction  done, 0 … 1, of what was begun with the stage or the last expectation, for
+  ///                  the time left; below 0: not known.
   void point(const std::string& curve, const solver::ResponsePoint& point, double fraction);
   /// A curve is finished: lines of history.csv that it does not hold (of a sweep that was given up
   /// for one from the other end, or cut short and made again) are taken out, the file written anew.
@@ -102,7 +104,8 @@ class Progress {
   void end_part(int number);
   void start_clock();
   void tell_time(const std::stop_token& stop);
-  [[nodiscard]] std::string time_text(double elapsed) const;
+  [[nodiscard]] std::string time_text(Clock::time_point now) const;
+  [[nodiscard]] double seconds_left(Clock::time_point now) const;
   void open_history(RunStart start);
   void append_history(const std::string& curve, const solver::ResponsePoint& point);
   [[nodiscard]] StageRecord running_stage() const;
@@ -116,11 +119,12 @@ class Progress {
   Clock::time_point stage_begin_ = begin_;
   Clock::time_point last_drawn_{};
   std::string stage_;
-  std::map<int, std::string> parts_;  ///< of it, that are being done, in words
-  int n_parts_ = 0;                   ///< begun so far
-  double expected_ = 0.0;             ///< of the stage [s]; 0: not known
-  bool has_points_ = false;           ///< which tell more
-  double fraction_ = 0.0;             ///< of the stage, done at the last of them
+  std::map<int, std::string> parts_;       ///< of it, that are being done, in words
+  int n_parts_ = 0;                        ///< begun so far
+  Clock::time_point part_begin_ = begin_;  ///< of what is expected, of which fractions are told
+  double expected_ = 0.0;                  ///< to take [s]; 0: not known
+  bool has_points_ = false;                ///< which tell more
+  double fraction_ = 0.0;                  ///< done at the last of them
   std::optional<MemoryGauge> gauge_;
   std::vector<StageRecord> stages_;
   std::vector<std::string> warnings_;

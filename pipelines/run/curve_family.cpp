@@ -32,12 +32,16 @@
 namespace microslip::pipelines {
 namespace {
 
-/// How far a point has come through the range, 0 … 1; a turn back lowers it.
-double fraction_of(const SceneDescription& scene, const solver::ResponsePoint& point) {
+/// Done of a family of curves, 0 … 1: a point tells how far its own has come through the range; a
+/// turn back lowers it.
+double fraction_of(const SceneDescription& scene, const solver::ResponsePoint& point,
+                   std::size_t n_done, std::size_t n_curves) {
   const ResponseDescription& range = *scene.response;
   const double width = range.frequency_end_hz - range.frequency_begin_hz;
   const double frequency_hz = point.frequency / (2.0 * std::numbers::pi);
-  return width == 0.0 ? 1.0 : (frequency_hz - range.frequency_begin_hz) / width;
+  const double share = width == 0.0 ? 1.0 : (frequency_hz - range.frequency_begin_hz) / width;
+  return (static_cast<double>(n_done) + std::clamp(share, 0.0, 1.0)) /
+         static_cast<double>(n_curves);
 }
 
 bool goes_on() { return !interrupt_requested() && !cut_short(); }
@@ -93,10 +97,8 @@ std::vector<CurveResult> trace_family(const ReducedModel& model, const SceneDesc
     stop_if_interrupted("points");
     const auto observe = [&](const solver::ResponsePoint& point) {
       record.note_point(requests[i].name, load_of(requests[i], model), point);
-      const double share = std::clamp(fraction_of(scene, point), 0.0, 1.0);
-      record.progress().point(
-          requests[i].name, point,
-          (static_cast<double>(done) + share) / static_cast<double>(requests.size()));
+      record.progress().point(requests[i].name, point,
+                              fraction_of(scene, point, done, requests.size()));
       return goes_on();
     };
     if (auto before = record.finished_curve(requests[i].name)) {
@@ -154,8 +156,7 @@ std::vector<CurveResult> trace_unkept(const ReducedModel& model, const SceneDesc
   const auto trace = [&](std::size_t i, const CurveSolver& solve) {
     stop_if_interrupted("curves");
     const auto observe = [&](const solver::ResponsePoint& point) {
-      progress.point(requests[i].name, point,
-                     static_cast<double>(done) / static_cast<double>(requests.size()));
+      progress.point(requests[i].name, point, fraction_of(scene, point, done, requests.size()));
       return goes_on();
     };
     results[i] = solve(requests[i], observe, near.empty() ? nullptr : near[i]);

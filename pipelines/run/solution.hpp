@@ -24,6 +24,11 @@ struct Solution {
   std::vector<CurveResult> curves{};
   std::vector<CurveBudget> budgets{};       ///< one per curve; none where they are not asked for
   std::vector<MissedEffect> switched_on{};  ///< left out at first; simulated here
+
+  /// Of the mesh; 0 without one.
+  [[nodiscard]] double degrees_of_freedom() const {
+    return structure ? 3.0 * static_cast<double>(structure->mesh.n_nodes()) : 0.0;
+  }
 };
 
 }  // namespace microslip::pipelines

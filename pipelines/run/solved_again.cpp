@@ -12,6 +12,7 @@
 #include "pipelines/effects/effects.hpp"
 #include "pipelines/effects/motion_along_r.hpp"
 #include "pipelines/run/curve_family.hpp"
+#include "pipelines/run/stage_seconds.hpp"
 #include "pipelines/structure/extrapolated_modes.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/scene_error.hpp"
@@ -21,8 +22,10 @@ namespace microslip::pipelines {
 namespace {
 
 StructurePointer structure_of(const Solution& before, const Refinement& step,
-                              const SolvedAgain& round) {
+                              const SolvedAgain& round, Progress& progress) {
   if (!before.structure || !step.new_mesh) return before.structure;
+  const Progress::Part part = progress.part("finer mesh and its modes");
+  progress.expect(step.seconds - step.curve_seconds);  // two cores save little of it
   return std::make_shared<const SolvedStructure>(solved_structure(step.scene, round.mesh_file()));
 }
 
@@ -76,7 +79,7 @@ bool solve(const Solution& before, const Refinement& step, int jobs, Progress& p
   Solution& now = round.solution;
   now.scene = step.scene;
   now.switched_on = before.switched_on;
-  now.structure = structure_of(before, step, round);
+  now.structure = structure_of(before, step, round, progress);
   if (cut_short()) return false;
   now.model = model_of(now.scene, now.structure.get(), round.warnings);
   const std::vector<std::size_t> again = curves_to_solve(before, step);
@@ -88,6 +91,7 @@ bool solve(const Solution& before, const Refinement& step, int jobs, Progress& p
     requests.push_back(all[i]);
     if (same_modes) near.push_back(&before.curves[i].curve);
   }
+  progress.expect(step.curve_seconds / jobs);
   std::vector<CurveResult> curves =
       trace_unkept(now.model, now.scene, requests, near, jobs, progress);
   if (cut_short() && !step.only_harmonics) return false;
@@ -95,6 +99,8 @@ bool solve(const Solution& before, const Refinement& step, int jobs, Progress& p
   now.budgets = before.budgets;
   std::vector<CurveBudget> budgets;
   if (!cut_short()) {
+    const Progress::Part part = progress.part("errors of the curves");
+    progress.expect(accuracy_seconds(now.model, now.scene, curves, now.degrees_of_freedom(), jobs));
     budgets = budgets_of(now.model, now.scene, now.structure.get(), jobs, curves, progress);
   }
   if (step.only_harmonics) return keep_finished(before, again, curves, std::move(budgets), now);

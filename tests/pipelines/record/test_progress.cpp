@@ -58,6 +58,25 @@ TEST(Progress, AStageThatSaysNothingTellsWhatIsLeft) {
   EXPECT_TRUE(std::regex_search(out.str(), over)) << out.str();
 }
 
+// A finer mesh within the stage that tells errors.
+TEST(Progress, APartOfAStageTellsWhatIsLeftOfIt) {
+  std::ostringstream out;
+  Progress progress(out, true, Verbosity::normal);
+  progress.stage("accuracy");
+  progress.expect(0.1);
+  std::this_thread::sleep_for(std::chrono::milliseconds(600));
+  const Progress::Part part = progress.part("finer mesh and its modes");
+  progress.expect(60.0);
+  std::this_thread::sleep_for(std::chrono::milliseconds(1200));
+  progress.expect(0.0);
+  progress.point("preload_6", {}, 0.5);
+  progress.finish();
+  const std::regex whole(
+      "accuracy  [1-2] s: finer mesh and its modes, some (5[89]|1 min 00) s left");
+  EXPECT_TRUE(std::regex_search(out.str(), whole)) << out.str();
+  EXPECT_TRUE(std::regex_search(out.str(), std::regex("preload_6 .*  0 s left"))) << out.str();
+}
+
 TEST(Progress, AStageWithoutAForecastTellsWhatIsBeingDone) {
   std::ostringstream out;
   Progress progress(out, true, Verbosity::normal);
