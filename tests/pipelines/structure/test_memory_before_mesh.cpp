@@ -28,13 +28,13 @@ SceneDescription scene_of(const Geometry& geometry) {
 std::vector<std::string> thin() {
   return {"model.root_thickness=2 mm",   "model.tip_thickness=1.5 mm", "model.root_width=2 mm",
           "model.root_height=5 mm",      "model.platform_height=2 mm", "model.platform_width=14 mm",
-          "model.platform_length=60 mm", "model.span=100 mm",          "model.element_size=1.5 mm"};
+          "model.platform_length=60 mm", "model.span=60 mm",           "model.element_size=1.5 mm"};
 }
 
 /// Little but its root.
 std::vector<std::string> compact() {
   return {"model.root_width=56 mm", "model.root_height=60 mm", "model.root_length=56 mm",
-          "model.span=20 mm", "model.element_size=4 mm"};
+          "model.span=20 mm", "model.element_size=6 mm"};
 }
 
 class Geometries : public testing::TestWithParam<Geometry> {};
@@ -62,8 +62,8 @@ TEST_P(Geometries, TakeMoreThanIsToldBeforeTheyAreMeshed) {
 
 INSTANTIATE_TEST_SUITE_P(
     MemoryBeforeMesh, Geometries,
-    testing::Values(Geometry{"blade", "blade_to_ground.toml", {"model.element_size=3 mm"}},
-                    Geometry{"step", "step_blade.toml", {"model.element_size=3 mm"}},
+    testing::Values(Geometry{"blade", "blade_to_ground.toml", {"model.element_size=4 mm"}},
+                    Geometry{"step", "step_blade.toml", {"model.element_size=4 mm"}},
                     Geometry{"thin", "blade_to_ground.toml", thin()},
                     Geometry{"compact", "blade_to_ground.toml", compact()}),
     [](const auto& one) { return one.param.name; });
