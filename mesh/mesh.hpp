@@ -68,6 +68,7 @@ class Mesh {
   [[nodiscard]] double volume() const { return volume_; }         ///< [m³]
   [[nodiscard]] Eigen::Vector3d lower() const { return lower_; }  ///< bounding box [m]
   [[nodiscard]] Eigen::Vector3d upper() const { return upper_; }
+  [[nodiscard]] double longest_side() const { return (upper_ - lower_).maxCoeff(); }  ///< of it
 
  private:
   Eigen::MatrixX3d nodes_;

@@ -2,6 +2,7 @@
 
 #include "contact/spare_cores.hpp"
 #include "fem/slepc_session.hpp"
+#include "pipelines/questions/questions.hpp"
 #include "pipelines/record/failed_start.hpp"
 #include "pipelines/record/run_record.hpp"
 #include "pipelines/response/response_stage.hpp"
@@ -11,7 +12,6 @@
 #include "pipelines/run/first_settings.hpp"
 #include "pipelines/run/missed_effects.hpp"
 #include "pipelines/run/model_stages.hpp"
-#include "pipelines/run/questions.hpp"
 #include "pipelines/run/solution_maps.hpp"
 #include "pipelines/run/solved_again.hpp"
 #include "pipelines/run/stage_seconds.hpp"

@@ -64,7 +64,7 @@ set(uses_solver_optimum balance peak enrichment curve)
 
 # `face` are the sources at the root.
 set(drawers_pipelines system text description sections scene import model structure effects response accuracy
-  files record run cycle face command_line)
+  files record questions run cycle face command_line)
 set(uses_pipelines_text system)
 set(uses_pipelines_description system text)
 set(uses_pipelines_sections system text description)
@@ -77,10 +77,12 @@ set(uses_pipelines_response system description scene model structure effects)
 set(uses_pipelines_accuracy system text description scene model structure effects response)
 set(uses_pipelines_files system text description model structure effects response accuracy)
 set(uses_pipelines_record system text model structure effects response accuracy files)
-set(uses_pipelines_run system text description scene import model structure effects response accuracy files record)
+set(uses_pipelines_questions system text description scene import model response record)
+set(uses_pipelines_run system text description scene import model structure effects response accuracy files record
+  questions)
 set(uses_pipelines_cycle system text files)
 set(uses_pipelines_face system text description sections scene import model structure effects response accuracy files
-  record run cycle)
+  record questions run cycle)
 set(uses_pipelines_command_line system text cycle face)
 
 # Doors that stay open: what a scene and a mesh say about a patch (fields over it, fitted mode shapes, preload that

@@ -34,7 +34,7 @@ Skin skin_of(const mesh::Mesh& mesh) {
 
 /// (2).
 double thickness_of(const mesh::Mesh& mesh, double area) {
-  const double section = mesh.volume() / (mesh.upper() - mesh.lower()).maxCoeff();
+  const double section = mesh.volume() / mesh.longest_side();
   const double sides = 0.5 * area * section / mesh.volume();  // t + b
   const double square = 0.25 * sides * sides - section;
   return square > 0.0 ? 0.5 * sides - std::sqrt(square) : std::sqrt(section);

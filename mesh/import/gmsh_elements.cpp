@@ -188,7 +188,7 @@ class MeshMaker {
 void require_size_of_a_body(const Mesh& mesh, const std::string& file) {
   constexpr double smallest = 1e-12;
   constexpr double largest = 1e12;
-  const double length = (mesh.upper() - mesh.lower()).maxCoeff();
+  const double length = mesh.longest_side();
   if (length >= smallest && length <= largest) return;
   std::ostringstream text;
   text << file << ": the longest side of the mesh is " << length << " m; expected " << smallest

@@ -111,7 +111,7 @@ mesh::Mesh read_mesh(const MeshFileModel& model) {
   }
   if (!model.modes && !model.matrices) require_whole(read);
   for (std::string& remark : left_out_remarks(read)) read.mesh.add_remark(std::move(remark));
-  const double longest = (read.mesh.upper() - read.mesh.lower()).maxCoeff() / *read.length_unit;
+  const double longest = read.mesh.longest_side() / *read.length_unit;
   std::string question = unit_question(model.file, model.length_unit, read.own_unit, longest);
   if (!question.empty()) read.mesh.add_remark(std::move(question));
   return std::move(read.mesh);

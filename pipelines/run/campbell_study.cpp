@@ -8,7 +8,7 @@
 
 #include "pipelines/files/plot_script.hpp"
 #include "pipelines/files/write_campbell.hpp"
-#include "pipelines/run/questions.hpp"
+#include "pipelines/questions/questions.hpp"
 #include "pipelines/structure/memory_before_mesh.hpp"
 #include "pipelines/structure/structure_stage.hpp"
 #include "pipelines/system/exit_code.hpp"

@@ -11,7 +11,7 @@
 #include "pipelines/model/contact_stage.hpp"
 #include "pipelines/model/scene_places.hpp"
 #include "pipelines/model/scene_warnings.hpp"
-#include "pipelines/run/questions.hpp"
+#include "pipelines/questions/questions.hpp"
 #include "pipelines/run/stage_seconds.hpp"
 #include "pipelines/structure/extrapolated_modes.hpp"
 #include "pipelines/structure/memory_before_mesh.hpp"

@@ -1,5 +1,5 @@
 /// Every question is asked of a scene that was broken for it, and none of a sensible one.
-#include "pipelines/run/questions.hpp"
+#include "pipelines/questions/questions.hpp"
 
 #include <gtest/gtest.h>
 

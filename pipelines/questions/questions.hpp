@@ -1,6 +1,6 @@
 /// @file
 /// A second pair of eyes: what no blade has is questioned, never refused. Every question is a row
-/// of the table in questions.cpp: a quantity, what is usual, the key that says it,
+/// of the tables beside: a quantity, what is usual, the key that says it,
 /// and what may have gone wrong.
 ///
 /// A question is one line: "material.youngs_modulus: Young's modulus is 210 Pa; usual is 1e+09 to
