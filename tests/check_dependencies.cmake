@@ -20,7 +20,7 @@ set(uses_pipelines mesh fem contact solver)
 set(face_mesh blade_geometry count_text element_block element_shape element_type face_frame interpolation mesh mesh_error mesh_reader
   mesher_process outer_faces shape_functions step_geometry surface)
 set(face_fem attachment bending_error given_matrices machine_memory material memory_forecast modal_analysis modal_basis modal_mass
-  petsc_error rank_messages ranks rotation slepc_session solver_kind surface_load)
+  petsc_error rank_messages ranks rotation slepc_session solver_kind stress_jumps surface_load)
 set(face_contact bracketed_root contact_effects contact_force contact_map contact_state contact_states dense harmonics modal_force
   motion_coordinates patch phase point_cycle spare_cores transient_force trigonometric_basis)
 set(face_solver continuation continuation_options diagnosis point_shift optimum response_curve richer_peak scene time_integration
