@@ -15,6 +15,7 @@
 #include "pipelines/run/stage_seconds.hpp"
 #include "pipelines/structure/extrapolated_modes.hpp"
 #include "pipelines/structure/memory_before_mesh.hpp"
+#include "pipelines/structure/mesh_excess.hpp"
 #include "pipelines/structure/solver_time.hpp"
 #include "pipelines/structure/static_preload.hpp"
 #include "pipelines/structure/structure_stage.hpp"
@@ -73,6 +74,9 @@ StructurePointer solved_structure(const SceneDescription& scene, RunRecord& reco
   if (!scene.modes.residual_note.empty()) record.progress().info(scene.modes.residual_note);
   record.keep_modes(mesh, *modes,
                     damping_ratios(scene.modes, modes->basis.frequency, modes->basis.n_attachment));
+  const MeshExcess excess = mesh_excess(mesh, *modes, scene);
+  if (!excess.text.empty()) record.progress().info(excess.text);
+  if (!excess.warning.empty()) record.progress().warning(excess.warning);
   SolvedStructure structure{std::move(mesh), std::move(*modes)};
   if (const std::string text = extrapolate_modes(structure, scene); !text.empty()) {
     record.progress().info(text);
