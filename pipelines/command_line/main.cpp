@@ -122,7 +122,7 @@ int answer_on_ranks(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  start_with_kernels_of_processor(argv);
+  use_kernels_of_processor(argv);
   std::signal(SIGXFSZ,
               SIG_IGN);  // a file that may not grow is an error of the writer, told as such
   prepare_for_little_memory();

@@ -10,6 +10,7 @@ namespace microslip::pipelines {
 namespace {
 
 constexpr const char* variable = "OPENBLAS_CORETYPE";
+constexpr std::string_view unfit = "Prescott";
 
 /// As OpenBLAS names them; none for a processor that has no better ones.
 const char* kernels_of_processor() {
@@ -23,20 +24,37 @@ const char* kernels_of_processor() {
   return nullptr;
 }
 
-/// Whichever BLAS the system's alternatives chose: empty if it is not OpenBLAS.
+/// A function of the BLAS that is loaded, whichever the system's alternatives chose.
+template <typename Function>
+Function* loaded(const char* name) {
+  return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
+}
+
+/// Empty if the BLAS is not OpenBLAS.
 std::string_view kernels_in_use() {
-  using Name = char*();
-  auto* name = reinterpret_cast<Name*>(dlsym(RTLD_DEFAULT, "openblas_get_corename"));
+  auto* name = loaded<char*()>("openblas_get_corename");
   const char* found = name != nullptr ? name() : nullptr;
   return found != nullptr ? found : "";
 }
 
+/// What OpenBLAS does first of all while it is loaded; nothing it has set up since depends on it.
+/// @return false: this OpenBLAS cannot, or has chosen as before.
+bool choose_again() {
+  auto* forget = loaded<void()>("gotoblas_dynamic_quit");
+  auto* choose = loaded<void()>("gotoblas_dynamic_init");
+  if (forget == nullptr || choose == nullptr) return false;
+  forget();
+  choose();
+  return kernels_in_use() != unfit;
+}
+
 }  // namespace
 
-void start_with_kernels_of_processor(char** arguments) {
-  if (std::getenv(variable) != nullptr || kernels_in_use() != "Prescott") return;
+void use_kernels_of_processor(char** arguments) {
+  if (std::getenv(variable) != nullptr || kernels_in_use() != unfit) return;
   const char* kernels = kernels_of_processor();
   if (kernels == nullptr || setenv(variable, kernels, 1) != 0) return;
+  if (choose_again()) return;
   execv("/proc/self/exe", arguments);
   unsetenv(variable);  // what is used is what is told
 }

@@ -468,6 +468,36 @@ TEST_F(Program, ATableWithoutRowsIsAnEmptyListAndANotice) {
       << outcome.err;
 }
 
+// ---- start
+
+/// Loading the libraries of finite elements takes longer than many a scene.
+TEST_F(Program, LoadsItsLibrariesOnce) {
+  const Outcome outcome = run("--version", "LD_DEBUG=statistics");
+  ASSERT_EQ(outcome.code, 0);
+  const std::string loaded = "total startup time";
+  const auto first = outcome.err.find(loaded);
+  ASSERT_NE(first, std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find(loaded, first + 1), std::string::npos) << outcome.err;
+}
+
+/// Kernels chosen by the program are those that OpenBLAS takes when it is told before it is loaded.
+TEST_F(Program, KernelsChosenLateAreThoseChosenEarly) {
+  write(path("scene.toml"), scene_text);
+  ASSERT_EQ(run("run scene.toml -o late", "env -u OPENBLAS_CORETYPE").code, 0);
+  const std::string blas = Json::parse(content_of(path("late/summary.json")))["machine"]["blas"];
+  for (const char* kernels : {"SkylakeX", "Haswell"}) {
+    if (blas.find(kernels) == std::string::npos) continue;
+    ASSERT_EQ(run("run scene.toml -o early", std::string("OPENBLAS_CORETYPE=") + kernels).code, 0);
+    EXPECT_EQ(Json::parse(content_of(path("early/summary.json")))["machine"]["blas"], blas);
+    for (const char* file : {"curves/scale_1.csv", "curves/scale_1.states.csv"}) {
+      EXPECT_EQ(content_of(path("late") / file), content_of(path("early") / file)) << file;
+    }
+  }
+  if (__builtin_cpu_supports("avx2") != 0) {
+    EXPECT_EQ(blas.find("Prescott"), std::string::npos) << blas;
+  }
+}
+
 // ---- run on a modal scene
 
 TEST_F(Program, RunsAModalSceneIntoAFolderOfWholeFiles) {
