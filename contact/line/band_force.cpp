@@ -13,12 +13,12 @@ BandWork band_work(SliderBand& band, const BandCycle& cycle) {
   for (const BandPiece& piece : cycle.pieces) {
     if (piece.state == ContactState::separated || piece.state == ContactState::stick) continue;
     const double sign = piece.slip_sign();
-    visit_piece(band, piece, band.n_harmonics(),
+    visit_piece(band, piece, band.n_harmonics(), BandIntegrals::forces_and_slip,
                 [&](const BandInstant& now, double friction, const auto&, double weight) {
                   const double way = weight * std::abs(now.velocity - sign * now.reach_rate);
                   work.slip_distance += way;
                   work.normal_slip += way * now.surface.load;
-                  work.dissipated_energy += way * std::abs(friction);
+                  work.dissipated_energy += weight * band_slip_power(piece, now, friction);
                 });
   }
   return work;
@@ -29,7 +29,7 @@ Harmonics band_force(SliderBand& band, const BandCycle& cycle, int n_harmonics) 
   const Eigen::Index n = force.rows().rows();
   for (const BandPiece& piece : cycle.pieces) {
     if (piece.state == ContactState::separated) continue;
-    visit_piece(band, piece, n_harmonics,
+    visit_piece(band, piece, n_harmonics, BandIntegrals::forces,
                 [&](const BandInstant& now, double friction, const auto& basis, double weight) {
                   force.rows().col(0) += (weight * friction) * basis.head(n);
                   force.rows().col(1) += (weight * now.surface.load) * basis.head(n);
@@ -63,7 +63,7 @@ void BandTraction::add_piece(SliderBand& band, const BandPiece& piece) {
   const bool sticks = piece.state == ContactState::stick;
   const double sign = piece.slip_sign();
   Eigen::Matrix<double, 1, n_sums> row = Eigen::Matrix<double, 1, n_sums>::Zero();
-  visit_piece(band, piece, band.n_harmonics(),
+  visit_piece(band, piece, band.n_harmonics(), BandIntegrals::forces,
               [&](const BandInstant& now, double force, const auto& basis, double weight) {
                 const SurfaceState& y = now.surface;
                 row[friction] = force;

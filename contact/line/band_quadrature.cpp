@@ -37,4 +37,8 @@ double band_friction(const SliderBand& band, const BandPiece& piece, const BandI
   return band.law().first_stiffness() * y.stiffness_ratio * (now.position - piece.slider);
 }
 
+double band_slip_power(const BandPiece& piece, const BandInstant& now, double friction) {
+  return std::abs(friction) * std::abs(now.velocity - piece.slip_sign() * now.reach_rate);
+}
+
 }  // namespace microslip::contact

@@ -32,11 +32,20 @@ struct BandPanel {
 [[nodiscard]] double band_friction(const SliderBand& band, const BandPiece& piece,
                                    const BandInstant& now);
 
+/// μ n |w'|: friction times the way of a slider that slips, by θ [J/m²].
+[[nodiscard]] double band_slip_power(const BandPiece& piece, const BandInstant& now,
+                                     double friction);
+
+/// What panels are halved for. Forces alone: integrals of friction times the rate of the band, in
+/// which the coefficient is derived, then err by more than rounding.
+enum class BandIntegrals { forces, forces_and_slip };
+
 /// What a panel knows at its nodes.
 struct BandPanelNodes {
   std::array<BandInstant, n_band_nodes> instant;
   BandPoints friction;
   BandPoints load;
+  BandPoints slip_power;
   Eigen::Matrix<double, Eigen::Dynamic, n_band_nodes> basis;
 };
 
@@ -44,8 +53,12 @@ struct BandPanelNodes {
 template <typename Visit>
 class PieceVisitor {
  public:
-  PieceVisitor(SliderBand& band, const BandPiece& piece, const Visit& visit)
-      : band_(band), piece_(piece), visit_(visit), nodes_(storage()) {}
+  PieceVisitor(SliderBand& band, const BandPiece& piece, BandIntegrals wanted, const Visit& visit)
+      : band_(band),
+        piece_(piece),
+        with_slip_(wanted == BandIntegrals::forces_and_slip),
+        visit_(visit),
+        nodes_(storage()) {}
 
   /// For products with harmonics up to `highest`.
   void visit(int highest) {
@@ -102,14 +115,16 @@ class PieceVisitor {
       nodes_.basis.col(i) = band_.basis();
       nodes_.friction[i] = band_friction(band_, piece_, now);
       nodes_.load[i] = now.surface.load;
+      if (with_slip_) nodes_.slip_power[i] = band_slip_power(piece_, now, nodes_.friction[i]);
     }
   }
 
   /// Relative to the sizes of the forces.
   struct Tail {
     double top = 0.0;
-    /// The rule is exact to degree 23. Terms fall off geometrically: as the one of degree 11 is to
-    /// the largest value, so is what is left out to that, and less.
+    /// The rule is exact to degree 23. Of forces geometric() tells what is left out. The power of
+    /// slip has the derivative of the coefficient in it: the last of it, which varies fast, hides
+    /// behind what varies slowly, and no ratio of terms shows it.
     double left_out = 0.0;
   };
 
@@ -117,28 +132,43 @@ class PieceVisitor {
   [[nodiscard]] Tail highest_terms() const {
     Tail tail;
     if (band_.law().is_smooth() && !band_.law().is_rate_dependent()) return tail;
-    add_tail(nodes_.friction, band_.friction_size(), tail);
-    add_tail(nodes_.load, band_.load_size(), tail);
+    add_tail(nodes_.friction, band_.friction_size(), geometric, tail);
+    add_tail(nodes_.load, band_.load_size(), geometric, tail);
+    if (with_slip_) {
+      constexpr double hidden = 1e-4;  // of the term of degree 11, of e^−y from 16 to 40: grades
+      const double size = band_.friction_size() * band_.rate_size();
+      add_tail(
+          nodes_.slip_power, size, [](double, const BandPoints&) { return hidden; }, tail);
+    }
     return tail;
   }
 
-  static void add_tail(const BandPoints& values, double size, Tail& tail) {
+  /// Terms fall off geometrically: as the one of degree 11 is to the largest value, so is what is
+  /// left out to that, and less.
+  static double geometric(double top, const BandPoints& values) {
+    return top / values.cwiseAbs().maxCoeff();
+  }
+
+  template <typename Share>
+  static void add_tail(const BandPoints& values, double size, const Share& share, Tail& tail) {
     const double top = (band_panel().top * values).cwiseAbs().maxCoeff();
     if (!(top > 0.0)) return;
     tail.top = std::max(tail.top, top / size);
-    tail.left_out = std::max(tail.left_out, (top / size) * (top / values.cwiseAbs().maxCoeff()));
+    tail.left_out = std::max(tail.left_out, (top / size) * share(top, values));
   }
 
   SliderBand& band_;
   const BandPiece& piece_;
+  bool with_slip_;
   const Visit& visit_;
   BandPanelNodes& nodes_;
 };
 
 /// @param highest  harmonic that forces are integrated against.
 template <typename Visit>
-void visit_piece(SliderBand& band, const BandPiece& piece, int highest, const Visit& visit) {
-  PieceVisitor<Visit>(band, piece, visit).visit(highest);
+void visit_piece(SliderBand& band, const BandPiece& piece, int highest, BandIntegrals wanted,
+                 const Visit& visit) {
+  PieceVisitor<Visit>(band, piece, wanted, visit).visit(highest);
 }
 
 }  // namespace microslip::contact

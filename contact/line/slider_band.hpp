@@ -96,6 +96,8 @@ class SliderBand {
   /// Bounds of k_u |u| + μ n and of n [Pa], the mean of u apart.
   [[nodiscard]] double friction_size() const { return friction_size_; }
   [[nodiscard]] double load_size() const { return load_size_; }
+  /// Of the rates of w by θ, a bound where the coefficient is constant [m].
+  [[nodiscard]] double rate_size() const { return size_; }
   [[nodiscard]] bool has_spring() const { return law_->first_stiffness() > 0.0; }
 
  private:

@@ -151,6 +151,26 @@ TEST(WorkError, OfACoefficientByTheSpeedIsRounding) {
   EXPECT_LT(kept.nearest, 1.0);
 }
 
+/// From a coefficient that hardly changes to one that changes within thin layers of time.
+TEST(WorkError, OfACoefficientThatFallsWithinLayersIsRounding) {
+  std::mt19937_64 random(14);
+  Kept kept;
+  for (int i = 0; i < 2 * n_cases; ++i) {
+    const test::MotionCase c = test::generic_motion(random);
+    const double path = c.motion.rows().col(0).tail(c.motion.rows().rows() - 1).cwiseAbs().sum();
+    const double speeds = std::pow(10.0, std::uniform_real_distribution(-1.0, 4.0)(random));
+    const double decay = speeds / (test::surface_frequency * path);
+    const double mu = c.point.friction_coefficient;
+    const FrictionLaw friction = i % 2 == 0 ? FrictionLaw::exponential(mu, 0.6 * mu, decay)
+                                            : FrictionLaw::hyperbolic(mu, decay);
+    const SurfaceLaw law(c.point, c.point.tangential_stiffness, friction);
+    kept.add(promise_of(*located(std::make_shared<SurfaceLineEvents>(law), false), c.motion,
+                        test::surface_frequency));
+  }
+  kept.tell("located, in layers");
+  EXPECT_LT(kept.nearest, 1.0);
+}
+
 TEST(WorkError, InAPlaneIsThatOfItsTolerance) {
   for (const double tolerance : {1e-6, 1e-9, 1e-11, 1e-13}) {
     const Kept kept = in_a_plane([&](const SurfaceLaw& law) {
