@@ -51,6 +51,7 @@ double LawTable::number(std::string_view name, const char* unit) const {
   if (!(std::isfinite(value) && value >= 0.0)) {
     fail(name, fmt::format("expected a number, at least 0 [{}]", unit));
   }
+  if (!is_of_usable_size(value)) fail(name, "expected 0, or a number from 1e-100 to 1e100");
   return value;
 }
 

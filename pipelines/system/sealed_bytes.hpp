@@ -9,7 +9,8 @@
 
 namespace microslip::pipelines {
 
-/// The whole of a file; empty where it cannot be read.
+/// The whole of a file; empty where it cannot be read, and of what is no file: a device may have no
+/// end, a pipe would be used up.
 [[nodiscard]] std::string bytes_of(const std::filesystem::path& file);
 
 /// @param header  one line without its end: whoever reads it must have the same.

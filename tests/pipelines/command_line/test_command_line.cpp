@@ -293,6 +293,23 @@ TEST_F(Program, NamesBadScenes) {
   expect("check broken.toml", 1, {"broken.toml:11:"});
   write(path("mesh.toml"), run("init mesh").out);
   expect("check mesh.toml", 1, {"blade.msh", "no such file"});
+  for (const char* law : {"{law='hyperbolic',static=0.3,rate=1e308}",
+                          "{law='exponential',static=1e-300,kinetic=0.1,rate=1}"}) {
+    expect(std::string("check scene.toml --set contact.friction_law=\"") + law + "\"", 1,
+           {"friction_law", "from 1e-100 to 1e100"});
+  }
+}
+
+/// What has no end is not read to it: neither for the mesh nor to tell whether it has changed.
+TEST_F(Program, AMeshWithoutEndIsRefusedAtOnce) {
+  write(path("scene.toml"), run("init mesh").out);
+  std::filesystem::create_symlink("/dev/zero", path("blade.msh"));
+  for (const char* command :
+       {"check scene.toml", "modes scene.toml -o out", "run scene.toml -o out"}) {
+    const Outcome outcome = run(command, "ulimit -t 2;");  // seconds
+    EXPECT_EQ(outcome.code, 1) << command;
+    EXPECT_NE(outcome.err.find("blade.msh: not a file"), std::string::npos) << outcome.err;
+  }
 }
 
 TEST_F(Program, WarnsOfAStructureThatNothingExcitesOrDamps) {
