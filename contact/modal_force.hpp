@@ -145,6 +145,9 @@ class ModalForce {
 
   /// Linear limit with every point stuck [1/s², n_modes × n_modes]; the free limit is zero.
   [[nodiscard]] virtual Eigen::MatrixXd stuck_stiffness() const = 0;
+  /// Whether it goes by the mean B of a motion. If not, ∂G/∂B = 0, and a balance gives B by the
+  /// others.
+  [[nodiscard]] virtual bool answers_mean() const { return true; }
   /// What is proved of all motions of a set. Unknown unless overridden.
   [[nodiscard]] virtual LinearState linear_state_of(const MotionSet& /*motions*/) const {
     return LinearState::unknown;

@@ -31,6 +31,7 @@ class VibrationAlone final : public ModalForce {
   void states(const Harmonics& q, double frequency, ContactStates& result,
               Workspace& work) const override;
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override;
+  [[nodiscard]] bool answers_mean() const override { return false; }
   /// Of the harmonics above the mean.
   [[nodiscard]] LinearState linear_state_of(const MotionSet& motions) const override;
 

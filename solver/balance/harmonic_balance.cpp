@@ -54,9 +54,9 @@ HarmonicBlock harmonic_block(const Eigen::VectorXd& stiffness, const Eigen::Vect
   return {stiffness.array() - frequency * frequency, frequency * damping.array()};
 }
 
-std::vector<Eigen::Index> rows_of(const HarmonicSet& set) {
+std::vector<Eigen::Index> rows_of(const HarmonicSet& set, bool has_mean) {
   std::vector<Eigen::Index> rows;
-  if (set.has_mean()) rows.push_back(0);
+  if (has_mean) rows.push_back(0);
   for (const int k : set.orders()) {
     rows.push_back(2 * k - 1);
     rows.push_back(2 * k);
@@ -64,17 +64,26 @@ std::vector<Eigen::Index> rows_of(const HarmonicSet& set) {
   return rows;
 }
 
+/// What nothing holds has no mean that follows.
+bool mean_follows(const Scene& scene) {
+  return scene.contact && !scene.contact->answers_mean() &&
+         (scene.natural_frequency.array() > 0.0).all();
+}
+
 }  // namespace
 
 HarmonicBalance::HarmonicBalance(const Scene& scene, HarmonicSet set)
-    : scene_(scene), set_(std::move(set)), rows_(rows_of(set_)) {
+    : scene_(scene),
+      set_(std::move(set)),
+      has_mean_(set_.has_mean() && !mean_follows(scene)),
+      rows_(rows_of(set_, has_mean_)) {
   check(scene);
   const Eigen::Index n = scene.n_modes();
   excitation_ = unknowns(scene.excitation);
   stiffness_ = scene.natural_frequency.array().square();
   damping_ = 2.0 * scene.damping_ratio.array() * scene.natural_frequency.array();
   for (Eigen::Index i = 0; i < n; ++i) {
-    if (scene.natural_frequency[i] == 0.0 && set_.has_mean()) rigid_.push_back(i);
+    if (scene.natural_frequency[i] == 0.0 && has_mean_) rigid_.push_back(i);
   }
   stuck_stiffness_ = scene.contact ? scene.contact->stuck_stiffness() : Eigen::MatrixXd::Zero(n, n);
   if (scene.contact) work_ = scene.contact->workspace();
@@ -82,7 +91,7 @@ HarmonicBalance::HarmonicBalance(const Scene& scene, HarmonicSet set)
 
 Harmonics HarmonicBalance::harmonics(const Eigen::VectorXd& x) const {
   const Eigen::Index n = scene_.n_modes();
-  if (set_.complete()) return {set_.highest(), n, x};
+  if (is_complete()) return {set_.highest(), n, x};
   Harmonics q(set_.highest(), n);
   Eigen::Index at = 0;
   for (const Eigen::Index row : rows_) {
@@ -90,6 +99,19 @@ Harmonics HarmonicBalance::harmonics(const Eigen::VectorXd& x) const {
     at += n;
   }
   return q;
+}
+
+Harmonics HarmonicBalance::motion(const Eigen::VectorXd& x, const BalanceEvaluation& at) const {
+  Harmonics q = harmonics(x);
+  if (at.mean.size() > 0) q.rows().row(0) = at.mean.transpose();
+  return q;
+}
+
+/// Where the set has a mean that is no unknown.
+void HarmonicBalance::set_mean(const Harmonics& force, BalanceEvaluation& result) const {
+  if (has_mean_ || !set_.has_mean()) return;
+  const Eigen::VectorXd load = (scene_.excitation.mean() - force.mean()).transpose();
+  result.mean = load.cwiseQuotient(stiffness_);
 }
 
 Eigen::VectorXd HarmonicBalance::unknowns(const Harmonics& q) const {
@@ -104,7 +126,7 @@ Eigen::VectorXd HarmonicBalance::unknowns(const Harmonics& q) const {
 }
 
 Eigen::VectorXd HarmonicBalance::unknowns(const Eigen::VectorXd& full) const {
-  if (set_.complete()) return full;
+  if (is_complete()) return full;
   return unknowns(Harmonics(set_.highest(), scene_.n_modes(), full));
 }
 
@@ -230,6 +252,7 @@ BalanceEvaluation HarmonicBalance::evaluate(const Eigen::VectorXd& x, double fre
     result.residual = result.contact_force - excitation_;
     result.parameter_derivative = std::move(contact.frequency_derivative);
     result.defect = contact.defect;
+    set_mean(contact.force, result);
     if (contact.fewer) {
       add_linear_residual(x, frequency, result.residual);
       add_frequency_derivative(x, frequency, result);
@@ -260,6 +283,7 @@ BalanceEvaluation HarmonicBalance::residual(const Eigen::VectorXd& x, double fre
         scene_.contact->evaluate(harmonics(x), frequency, {}, *work_);
     result.contact_force = unknowns(contact.force);
     result.defect = contact.defect;
+    set_mean(contact.force, result);
   }
   result.residual = result.contact_force - excitation_;
   add_linear_residual(x, frequency, result.residual);
@@ -334,7 +358,7 @@ Eigen::VectorXd HarmonicBalance::linear_response(double frequency,
   // Where a mean is any it is zero.
   Eigen::Index first = orders_begin();
   const bool is_loaded = rigid_.empty() || !excitation_.head(first).isZero(0.0);
-  if (set_.has_mean() && is_loaded) solve(0, 0, n);
+  if (has_mean_ && is_loaded) solve(0, 0, n);
   for (const int k : set_.orders()) {
     // What is not driven rests, at a resonance without damping as well.
     if (!excitation_.segment(first, 2 * n).isZero(0.0)) solve(k, first, 2 * n);

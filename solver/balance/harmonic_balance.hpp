@@ -6,7 +6,8 @@
 ///                                               Harmonics::vector() without those that the set
 ///                                               leaves out, which are zero
 ///
-///   mean        L: ω_n²
+///   mean        L: ω_n²; of a contact that does not answer it (theory section 13) no unknown:
+///               B = (Q_b − G_b(x)) / ω_n²
 ///   harmonic k  L: [ ω_n² − k²ω²    −2ζ_n ω_n kω  ]  on (sine, cosine) of mode n
 ///                  [ 2ζ_n ω_n kω    ω_n² − k²ω²   ]
 #pragma once
@@ -29,7 +30,8 @@ struct BalanceEvaluation {
   BalanceJacobian jacobian;              ///< ∂R/∂x [1/s²], n × n
   Eigen::VectorXd parameter_derivative;  ///< ∂R/∂ω at fixed x, or by a homotopy's parameter, n
   Eigen::VectorXd contact_force;         ///< G [N/√kg], n
-  double defect = 0.0;  ///< what ‖R‖ may be off by because G is not known better [N/√kg]
+  Eigen::VectorXd mean{};  ///< B [m√kg], n_modes, where it follows from x; else empty
+  double defect = 0.0;     ///< what ‖R‖ may be off by because G is not known better [N/√kg]
 };
 
 /// With the workspace of its contact: whoever may evaluate has it without const,
@@ -42,13 +44,19 @@ class HarmonicBalance {
   HarmonicBalance(const Scene& scene, HarmonicSet set);
 
   [[nodiscard]] Eigen::Index size() const { return excitation_.size(); }
+  /// As it was asked for: of a contact that does not answer the mean, that is no unknown.
   [[nodiscard]] const HarmonicSet& set() const { return set_; }
+  /// Whether the mean is an unknown.
+  [[nodiscard]] bool has_mean() const { return has_mean_; }
   /// Where the sine of the first order begins: behind the mean, if that is unknown.
-  [[nodiscard]] Eigen::Index orders_begin() const { return set_.has_mean() ? scene_.n_modes() : 0; }
+  [[nodiscard]] Eigen::Index orders_begin() const { return has_mean_ ? scene_.n_modes() : 0; }
   [[nodiscard]] const Scene& scene() const { return scene_; }
   [[nodiscard]] const Eigen::VectorXd& excitation() const { return excitation_; }
-  /// x with zeros for what is left out, up to the highest harmonic of the set.
+  /// x with zeros for what is no unknown, up to the highest harmonic of the set.
   [[nodiscard]] Harmonics harmonics(const Eigen::VectorXd& x) const;
+  /// The same with the mean that follows.
+  /// @param at  evaluate() or residual() at x.
+  [[nodiscard]] Harmonics motion(const Eigen::VectorXd& x, const BalanceEvaluation& at) const;
   /// The harmonics of the set alone; zero where q has none.
   [[nodiscard]] Eigen::VectorXd unknowns(const Harmonics& q) const;
   /// The same of a vector in the order of harmonics(x).vector(), of a gradient say.
@@ -88,6 +96,8 @@ class HarmonicBalance {
   [[nodiscard]] double largest_terms(const Eigen::VectorXd& x, double frequency) const;
 
  private:
+  [[nodiscard]] bool is_complete() const { return has_mean_ && set_.complete(); }
+  void set_mean(const Harmonics& force, BalanceEvaluation& result) const;
   void add_linear_residual(const Eigen::VectorXd& x, double frequency,
                            Eigen::VectorXd& residual) const;
   /// Of L, each mode and harmonic alone.
@@ -109,6 +119,7 @@ class HarmonicBalance {
 
   const Scene& scene_;
   HarmonicSet set_;
+  bool has_mean_;
   std::vector<Eigen::Index> rows_;  // of Harmonics::rows(), one per block of unknowns
   Eigen::VectorXd excitation_;
   Eigen::VectorXd stiffness_;  // ω_n²

@@ -17,7 +17,8 @@ class LinearForce final : public contact::ModalForce {
   /// @param report     what every cycle is said to be.
   LinearForce(Eigen::MatrixXd stiffness, const contact::CycleReport& report)
       : ModalForce(stiffness.rows()), stiffness_(std::move(stiffness)), report_(report) {}
-  /// In the place of a contact that is known to be linear: its reports are the contact's own.
+  /// In the place of a contact that is known to be linear: its reports are the contact's own, and a
+  /// mean that the contact does not answer no spring holds.
   /// @param contact  borrowed.
   LinearForce(Eigen::MatrixXd stiffness, const contact::ModalForce& contact)
       : ModalForce(stiffness.rows()), stiffness_(std::move(stiffness)), contact_(&contact) {}
@@ -30,6 +31,9 @@ class LinearForce final : public contact::ModalForce {
   [[nodiscard]] contact::CycleReport report(const contact::Harmonics& q, double frequency,
                                             Workspace& work) const override {
     return contact_ != nullptr ? contact_->report(q, frequency, work) : report_;
+  }
+  [[nodiscard]] bool answers_mean() const override {
+    return contact_ == nullptr || contact_->answers_mean();
   }
   /// The free limit, or one of contact that sticks, whatever the motion.
   [[nodiscard]] contact::LinearState linear_state_of(
@@ -49,6 +53,10 @@ class LinearForce final : public contact::ModalForce {
     const Eigen::Index size = static_cast<Eigen::Index>(asked.rows.size()) * n;
     result.jacobian = Eigen::MatrixXd::Zero(size, size);
     for (Eigen::Index i = 0; i < size; i += n) result.jacobian.block(i, i, n, n) = stiffness_;
+    if (!answers_mean()) {
+      result.force.rows().row(0).setZero();
+      if (size > 0 && asked.rows.front() == 0) result.jacobian.topLeftCorner(n, n).setZero();
+    }
     result.frequency_derivative = Eigen::VectorXd::Zero(size);
     return result;
   }

@@ -74,7 +74,7 @@ ResponsePoint certified_point(HarmonicBalance& balance, const NewtonResult& solu
   const Scene& scene = balance.scene();
   ResponsePoint point;
   point.frequency = frequency;
-  point.q = balance.harmonics(solution.point.x);
+  point.q = balance.motion(solution.point.x, solution.evaluation);
   point.orders = balance.set().orders();
   const OutputAmplitude output = output_amplitude(point.q, scene.output);
   point.amplitude = output.half_peak_to_peak;

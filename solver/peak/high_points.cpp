@@ -35,7 +35,8 @@ HighPoint climbed(HarmonicBalance& balance, const ResponsePoint& from,
   const std::optional<LocalPeak> peak = follow_peak(balance, *start, start->point, range, work);
   if (!peak || peak->amplitude < from.amplitude) return high;
   high.point.frequency = peak->point.parameter;
-  high.point.q = balance.harmonics(peak->point.x);
+  high.point.q =
+      balance.motion(peak->point.x, balance.residual(peak->point.x, peak->point.parameter));
   high.point.amplitude = peak->amplitude;
   high.point.mark = PointMark::peak;
   high.place = PeakPlace::peak;

@@ -90,7 +90,7 @@ std::vector<Number> united(const std::vector<Number>& a, const std::vector<Numbe
 /// @param orders, modes  to be kept, ascending.
 ReducedBalance reduced(const HarmonicBalance& balance, const BalanceJacobian& jacobian,
                        std::vector<int> orders, std::vector<Eigen::Index> modes) {
-  ReducedBalance result{balance.set().has_mean(), std::move(orders), std::move(modes), {}};
+  ReducedBalance result{balance.has_mean(), std::move(orders), std::move(modes), {}};
   std::vector<Eigen::Index> low;
   if (result.has_mean) low = result.modes;
   const Eigen::Index n = balance.scene().n_modes();
@@ -311,13 +311,15 @@ StabilityReport hill_stability(const HarmonicBalance& balance, const Harmonics& 
     report.basis = StabilityBasis::damped_linear;
     return report;
   }
+  const bool is_odd = !balance.set().has_mean();
+  if (!is_odd && !balance.has_mean()) return slow;
   report.stability = Stability::not_assessed;
   report.basis = StabilityBasis::hill;
   const auto n = static_cast<Eigen::Index>(slow.reduced->modes.size());
   const ReducedBalance low =
-      slow.reduced->has_mean ? with_orders(*slow.reduced, low_orders(balance.set().orders(),
-                                                                     slow.reduced->modes.size()))
-                             : even_part(scene, q, frequency, slow.reduced->modes);
+      is_odd ? even_part(scene, q, frequency, slow.reduced->modes)
+             : with_orders(*slow.reduced,
+                           low_orders(balance.set().orders(), slow.reduced->modes.size()));
   const Eigen::MatrixXd matrix = hill_matrix(scene, low, frequency);
   if (!matrix.allFinite()) return report;
   const auto pairs = contact::general_pairs(matrix);

@@ -63,8 +63,10 @@ struct StabilityReport {
 
 /// The same judged by Hill's exponents where there are several harmonics and neither the scene nor
 /// every motion near by is proved a damped linear one: every point stuck, or every point open.
-/// Where the mean is no unknown, motions change sign after half a period: then by the mean and even
-/// harmonics of a perturbation, which have all exponents that odd ones have.
+/// Where the set leaves the mean out, motions change sign after half a period: then by the mean and
+/// even harmonics of a perturbation, which have all exponents that odd ones have. Contact that does
+/// not answer the mean knows motions that repeat, and what drifts slowly from them: by the slow
+/// flow.
 /// @param q     harmonics of the point.
 /// @param slow  slow_flow_stability() of the same point.
 [[nodiscard]] StabilityReport hill_stability(const HarmonicBalance& balance, const Harmonics& q,

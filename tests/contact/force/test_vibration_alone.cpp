@@ -69,6 +69,8 @@ TEST(VibrationAlone, WhereTheMeanLiesIsNotSeen) {
     const VibrationAlone force(one.make());
     const Harmonics q = motion(one.n_harmonics, force.n_modes());
     ASSERT_GT(q.mean().norm(), 0.1);
+    EXPECT_FALSE(force.answers_mean());
+    EXPECT_TRUE(one.make()->answers_mean());
     const Harmonics still = without_mean(q);
     const auto inner = one.make();
     const ForceAndJacobian at = tests::evaluate(force, q, omega);
