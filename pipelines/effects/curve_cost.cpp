@@ -320,9 +320,11 @@ ResponseSeconds response_seconds(const SceneDescription& scene, const CurveEffec
 }
 
 double search_seconds(const SceneDescription& scene, const CurveEffects& effects, int n_starts) {
-  const double frequencies = is_one_frequency(scene) ? 1.0 : frequencies_of_a_search;
+  const bool one = is_one_frequency(scene);
+  const double starts = (one ? 1.0 : frequencies_of_a_search) * n_starts * of_a_start;
+  const double followed = one && n_starts > 0 ? of_a_curve : 0.0;  // its own branch
   const Size size = size_of(scene, effects);
-  return n_curves(scene) * frequencies * n_starts * of_a_start * evaluation_seconds(effects, size);
+  return n_curves(scene) * (starts + followed) * evaluation_seconds(effects, size);
 }
 
 }  // namespace microslip::pipelines

@@ -64,6 +64,30 @@ std::vector<double> search_frequencies(const Scene& scene, const ContinuationOpt
   return all;
 }
 
+/// The range in which the branch of a solution at one frequency may fold and come back: from the
+/// free to the stuck resonance of the modes between which it lies, and a little beside.
+ContinuationOptions range_about(const Scene& scene, ContinuationOptions options) {
+  constexpr double beside = 0.05;
+  constexpr double farthest = 0.25;  // of the frequency
+  const Eigen::Index n = scene.n_modes();
+  const Eigen::VectorXd free = resonances(scene, Eigen::MatrixXd::Zero(n, n));
+  const Eigen::VectorXd stuck = resonances(scene, scene.contact->stuck_stiffness());
+  const double frequency = options.frequency_begin;
+  double low = (1.0 - beside) * frequency;
+  double high = (1.0 + beside) * frequency;
+  for (Eigen::Index i = 0; i < std::min(free.size(), stuck.size()); ++i) {
+    const double from = (1.0 - beside) * free[i];
+    const double to = (1.0 + beside) * stuck[i];
+    if (from > frequency || to < frequency) continue;
+    low = std::min(low, from);
+    high = std::max(high, to);
+  }
+  options.frequency_begin = std::max(low, (1.0 - farthest) * frequency);
+  options.frequency_end = std::min(high, (1.0 + farthest) * frequency);
+  options.judge_stability = options.require_proof = false;  // of what is no row
+  return options;
+}
+
 class Search {
  public:
   Search(const Scene& scene, const ContinuationOptions& options, ResponseCurve& curve)
@@ -86,21 +110,51 @@ class Search {
     }
     balance_ = std::make_unique<HarmonicBalance>(scene_, std::move(set));
     std::vector<Eigen::VectorXd> known = known_at(frequency);
+    if (is_point()) {
+      for (const Eigen::VectorXd& own : std::vector(known)) keep_crossings(own, frequency, known);
+    }
     for (int i = 0; i < options_.search_starts; ++i) {
       if (curve_.detached.size() >= most_branches) return;
       ++curve_.n_starts;
       const std::optional<Eigen::VectorXd> found =
           deflated(start(i, frequency, known), frequency, known);
       if (!found) continue;
-      NewtonOptions newton;
-      newton.tolerance = options_.residual_tolerance;
-      NewtonResult solution = solve_at(*balance_, *found, frequency, newton);
-      count(solution.iterations, solution.evaluations);
+      NewtonResult solution = solved_near(*found, frequency);
       if (!solution.converged || near(solution.point.x, known)) continue;
       const Eigen::VectorXd x = solution.point.x;
       keep_branch(std::move(solution));
       known = known_at(frequency);  // the branch may come back to this frequency
       if (!near(x, known)) known.push_back(x);
+      if (is_point()) keep_crossings(x, frequency, known);
+    }
+  }
+
+  [[nodiscard]] bool is_point() const { return options_.frequency_begin == options_.frequency_end; }
+
+  [[nodiscard]] NewtonResult solved_near(const Eigen::VectorXd& x, double frequency) {
+    NewtonOptions newton;
+    newton.tolerance = options_.residual_tolerance;
+    NewtonResult solution = solve_at(*balance_, x, frequency, newton);
+    count(solution.iterations, solution.evaluations);
+    return solution;
+  }
+
+  /// Of one frequency: where the branch of a solution comes back to it.
+  void keep_crossings(const Eigen::VectorXd& x, double frequency,
+                      std::vector<Eigen::VectorXd>& known) {
+    NewtonResult start = solved_near(x, frequency);
+    if (!start.converged) return;
+    const ContinuationOptions range = range_about(scene_, options_);
+    const DetachedBranch branch = followed(std::move(start), range);
+    ResponseCurve about;
+    about.points = branch.points;
+    if (branch.closed) about.points.push_back(branch.points.front());
+    for (const ResponsePoint& point : points_at_frequency(scene_, about, frequency, range)) {
+      if (curve_.detached.size() >= most_branches) return;
+      NewtonResult solution = solved_near(balance_->unknowns(point.q), frequency);
+      if (!solution.converged || near(solution.point.x, known)) continue;
+      known.push_back(solution.point.x);
+      keep_branch(std::move(solution));
     }
   }
 
@@ -237,7 +291,7 @@ class Search {
   }
 
   void keep_branch(NewtonResult start) {
-    if (options_.frequency_begin == options_.frequency_end) {
+    if (is_point()) {
       SolvedPoint solved = solved_point(*balance_, start, options_);
       curve_.contact_evaluations += solved.evaluations;
       if (!solved.why.empty()) {
@@ -248,23 +302,32 @@ class Search {
       curve_.detached.push_back({.points = {std::move(solved.point)}});
       return;
     }
-    const PointObserver none;
-    ContinuationOptions backward = options_;
+    DetachedBranch branch = followed(std::move(start), options_);
+    if (!branch.points.empty()) curve_.detached.push_back(std::move(branch));
+  }
+
+  /// Both ways from a solution to the ends of its branch.
+  [[nodiscard]] DetachedBranch followed(NewtonResult start, const ContinuationOptions& options) {
+    const PointObserver goes_on = [&](const ResponsePoint& /*point*/) {
+      return !options.stop || !options.stop();
+    };
+    ContinuationOptions backward = options;
     std::swap(backward.frequency_begin, backward.frequency_end);
-    const ResponseCurve ahead = CurveTracer(scene_, options_, none).follow(start, balance_->set());
+    const ResponseCurve ahead =
+        CurveTracer(scene_, options, goes_on).follow(start, balance_->set());
     count_work(ahead);
     DetachedBranch branch;
     branch.closed = ahead.diagnosis == Diagnosis::loop;
     if (!branch.closed) {
       const ResponseCurve back =
-          CurveTracer(scene_, backward, none).follow(std::move(start), balance_->set());
+          CurveTracer(scene_, backward, goes_on).follow(std::move(start), balance_->set());
       count_work(back);
       if (!back.points.empty()) {
         branch.points.assign(back.points.rbegin(), back.points.rend() - 1);
       }
     }
     branch.points.insert(branch.points.end(), ahead.points.begin(), ahead.points.end());
-    if (!branch.points.empty()) curve_.detached.push_back(std::move(branch));
+    return branch;
   }
 
   /// A curve that lacks a solution, beside it as well, is not complete.

@@ -12,7 +12,8 @@
 ///   δ = −J⁻¹R / (1 + gᵀ J⁻¹R)
 ///
 /// What is found is followed both ways to the ends of its branch; at a single frequency it is a
-/// point. Nothing found proves nothing.
+/// point, and the branches of the known solutions are followed about the resonances near by: where
+/// they fold and come back is another solution. Nothing found proves nothing.
 ///
 /// Source: the deflation operator of Farrell, Birkisson & Funke, SIAM J. Sci. Comput. 37 (2015)
 /// A2026, power 2, shift 1; starts and following are this project's.

@@ -11,6 +11,8 @@
 
 #include <gtest/gtest.h>
 
+#include "contact/force/point_method_force.hpp"
+#include "contact/line/line_events.hpp"
 #include "tests/solver/duffing.hpp"
 #include "tests/solver/humped_damping.hpp"
 #include "tests/support/random_scene.hpp"
@@ -125,6 +127,50 @@ TEST(BranchSearch, FindsTheOtherSolutionsAtASingleFrequency) {
     found.push_back(branch.points[0].amplitude);
   }
   std::sort(found.begin(), found.end());
+  ASSERT_EQ(found.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(found[i], known[i], 1e-9 * known[i]);
+}
+
+/// Two modes; the contact opens at a resonance.
+Scene that_opens() {
+  Scene scene;
+  scene.natural_frequency = two_pi * Eigen::Vector2d(40.0, 95.0);
+  scene.damping_ratio = Eigen::Vector2d(0.003, 0.003);
+  scene.excitation = Harmonics(1, 2);
+  scene.excitation.rows().row(1) << 9.0, 2.0;
+  scene.output = Eigen::Vector2d(0.6, 0.8);
+  contact::ModalShapes shapes{Eigen::MatrixXd(1, 2), Eigen::MatrixXd(1, 2), {}};
+  shapes.u << 0.3, 0.5;
+  shapes.v << 0.7, 0.4;
+  std::vector<std::shared_ptr<const contact::PointMethod>> point{
+      std::make_shared<contact::LineEvents>(contact::PointParameters{1e4, 9e4, 0.2, 60.0})};
+  scene.contact = std::make_unique<contact::PointMethodForce>(Eigen::VectorXd::Ones(1),
+                                                              std::move(point), std::move(shapes));
+  return scene;
+}
+
+TEST(BranchSearch, AtOneFrequencyFindsWhatASweepMeetsThere) {
+  // Where twelve starts alone find none.
+  const Scene scene = that_opens();
+  const double frequency = two_pi * 48.7;
+  ContinuationOptions sweep = range(two_pi * 38.0, two_pi * 60.0, 0);
+  sweep.n_harmonics = 3;
+  const ResponseCurve whole = trace_response(scene, sweep);
+  ASSERT_TRUE(whole.complete) << whole.message;
+  std::vector<double> known;
+  for (const auto& point : points_at_frequency(scene, whole, frequency, sweep)) {
+    known.push_back(point.amplitude);
+  }
+  ContinuationOptions there = range(frequency, frequency, 12);
+  there.n_harmonics = 3;
+  const ResponseCurve one = trace_response(scene, there);
+  std::vector<double> found{one.points.at(0).amplitude};
+  for (const DetachedBranch& branch : one.detached) {
+    found.push_back(branch.points.at(0).amplitude);
+  }
+  std::sort(known.begin(), known.end());
+  std::sort(found.begin(), found.end());
+  ASSERT_EQ(known.size(), 3U);
   ASSERT_EQ(found.size(), 3U);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(found[i], known[i], 1e-9 * known[i]);
 }
