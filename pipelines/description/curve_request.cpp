@@ -47,6 +47,7 @@ std::vector<CurveRequest> curve_requests(const SceneDescription& scene) {
     }
   }
   make_unique(requests);
+  for (CurveRequest& request : requests) request.place = place_in(scene, "response.preload");
   return requests;
 }
 

@@ -13,8 +13,9 @@ namespace microslip::pipelines {
 /// What one curve is asked for: a preload, a factor on the rest loads that are given (modal scenes
 /// and bars), or a linear limit.
 struct CurveRequest {
-  std::string name;   ///< stem of the CSV
-  PreloadEntry load;  ///< [N], or the factor
+  std::string name;                        ///< stem of the CSV
+  PreloadEntry load;                       ///< [N], or the factor
+  std::string place = "response.preload";  ///< of messages
 };
 
 /// Curves of a scene in the order they are written: the asked ones,

@@ -36,7 +36,7 @@ std::variant<double, LimitName> load_of(const CurveRequest& request, const Reduc
   if (gap == nullptr) return std::get<double>(request.load);
   const double total = total_normal_stiffness(model);
   if (!(total > 0.0)) {
-    throw RefusedError("response.preload: a gap needs a normal contact stiffness, and it is zero");
+    throw RefusedError(request.place + ": a gap needs a normal contact stiffness, and it is zero");
   }
   return -gap->width * total;
 }

@@ -49,8 +49,9 @@ std::vector<Eigen::Index> columns_of(const ModesOfFile& read, const SceneDescrip
   const BasisSettings& basis = scene.settings.basis;
   const Eigen::Index n_free = read.frequency_hz.size() - read.n_attachment;
   if (basis.n_modes > n_free) {
-    throw SceneError(fmt::format("modes.count: {} modes are asked for, {} has {}", basis.n_modes,
-                                 file.file.string(), n_free));
+    throw SceneError(fmt::format("{}: {} modes are asked for, {} has {}",
+                                 place_in(scene, "modes.count"), basis.n_modes, file.file.string(),
+                                 n_free));
   }
   const bool attached = basis.residual == ResidualKind::attachment;
   if (attached && read.n_attachment == 0) {

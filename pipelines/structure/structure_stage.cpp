@@ -137,14 +137,13 @@ Eigen::Index n_free(const StructureTask& task) {
   return 3 * (task.mesh.n_nodes() - static_cast<Eigen::Index>(held.size()));
 }
 
-void require_count(const StructureTask& task) {
+void require_count(const StructureTask& task, const SceneDescription& scene) {
   const Eigen::Index most = n_free(task);
   if (task.basis.n_modes <= most) return;
   throw SceneError(
-      fmt::format("modes.count: {} modes are asked for, and what is not held has {} degrees of "
-                  "freedom; ask for "
-                  "fewer",
-                  task.basis.n_modes, most));
+      fmt::format("{}: {} modes are asked for, and what is not held has {} degrees of freedom; ask "
+                  "for fewer",
+                  place_in(scene, "modes.count"), task.basis.n_modes, most));
 }
 
 /// The same solution bit for bit needs the same arithmetic: BLAS and its threads, ranks, libraries.
@@ -163,8 +162,8 @@ bool has_iterative_way(const StructureTask& task) {
   return task.basis.solver == fem::SolverKind::direct && !task.rotation;
 }
 
-StructureModes solve_on_all_ranks(const StructureTask& task) {
-  require_count(task);
+StructureModes solve_on_all_ranks(const StructureTask& task, const SceneDescription& scene) {
+  require_count(task, scene);
   require_memory(task.mesh, task.basis.solver);
   require_time(task.mesh, task.basis);
   StructureModes modes;
@@ -189,12 +188,12 @@ StructureModes modes_in(const std::string& kept) {
   return modes;
 }
 
-StructureModes solved(const StructureTask& task) {
+StructureModes solved(const StructureTask& task, const SceneDescription& scene) {
   ResultCache* cache = ResultCache::in_use();
-  if (cache == nullptr) return solve_on_all_ranks(task);
+  if (cache == nullptr) return solve_on_all_ranks(task, scene);
   const ResultCache::Entry entry = cache->entry("modes", bytes_of(task) + arithmetic());
   if (const auto made = entry.find()) return modes_in(*made);
-  StructureModes modes = solve_on_all_ranks(task);
+  StructureModes modes = solve_on_all_ranks(task, scene);
   ByteWriter bytes;
   bytes(modes);
   entry.keep(bytes.bytes());
@@ -205,7 +204,7 @@ StructureModes solved(const StructureTask& task) {
 StructureModes solved_from_matrices(const mesh::Mesh& mesh, const SceneDescription& scene) {
   const StructureTask task = task_of(mesh, scene);
   try {
-    StructureModes modes = solved(task);
+    StructureModes modes = solved(task, scene);
     if (std::string question = mass_question(mesh, *task.matrices); !question.empty()) {
       modes.warnings.push_back(std::move(question));
     }
@@ -295,7 +294,7 @@ void check_names(const mesh::Mesh& mesh, const SceneDescription& scene) {
 StructureModes solve_structure(const mesh::Mesh& mesh, const SceneDescription& scene) {
   if (given_modes(scene) != nullptr) return given_structure(mesh, scene);
   StructureModes modes = given_matrices(scene) != nullptr ? solved_from_matrices(mesh, scene)
-                                                          : solved(task_of(mesh, scene));
+                                                          : solved(task_of(mesh, scene), scene);
   if (has_static_preload(scene)) modes.static_face = static_face(mesh, scene);
   return modes;
 }

@@ -55,7 +55,7 @@ class CheckedModes(unittest.TestCase):
         plate = os.path.join(SOURCE, "share", "scenes", "plate_mesh.toml")
         told = subprocess.run([PROGRAM, "check", plate, "--set", "modes.count=500"], capture_output=True, text=True)
         self.assertEqual(told.returncode, 1, told.stdout)
-        self.assertRegex(told.stderr, "modes.count: 500 modes are asked for, and what is not held has [0-9]+ degrees of freedom")
+        self.assertRegex(told.stderr, "--set modes.count=500: modes.count: 500 modes are asked for, and what is not held has [0-9]+ degrees of freedom")
 
     def test_modes_that_are_kept_are_asked_though_they_take_long(self):
         settings = [*MANY, 'response.frequency=["20 Hz", "100 Hz"]']

@@ -193,6 +193,17 @@ TEST(AttachedModel, AGapGivenAsALengthIsThatLengthInEveryBasis) {
                 150.0 / total_normal_stiffness(model), 1e-17);
     EXPECT_FALSE(gap_of(150.0, model).has_value());
     EXPECT_FALSE(gap_of(LimitName::free, model).has_value());
+    ReducedModel smooth = model;
+    for (contact::Patch& patch : smooth.patches) patch.cells.stiffness.col(1).setZero();
+    try {
+      static_cast<void>(load_of(requests[0], smooth));
+      FAIL() << "a gap without stiffness has no load";
+    } catch (const RefusedError& error) {
+      EXPECT_EQ(
+          std::string(error.what()),
+          "--set response.preload=[{ gap = \"3 um\" }, -150]: response.preload: a gap needs a "
+          "normal contact stiffness, and it is zero");
+    }
   }
 }
 
