@@ -16,7 +16,7 @@ namespace microslip::pipelines {
 /// Of a mesh that is made here, of one freedom.
 inline constexpr double per_meshed_freedom = 7e-5;
 
-/// Of a mesh that is made here, or read, and its modes.
+/// Of a mesh that is made here, or read, its modes and their linear limits.
 [[nodiscard]] double mesh_and_modes_seconds(double degrees_of_freedom,
                                             const SceneDescription& scene);
 

@@ -45,6 +45,11 @@ TEST(SolverTime, IsWithinAFactorOfTwoOfWhatWasTaken) {
   }
 }
 
+TEST(SolverTime, IsWithinAFactorOfTwoOfWhatManyModesTook) {
+  EXPECT_NEAR(std::log2(modes_seconds(5'811.0, {.n_modes = 300}) / 5.1), 0.0, 0.6);
+  EXPECT_NEAR(std::log2(modes_seconds(5'811.0, {.n_modes = 900}) / 39.9), 0.0, 0.6);
+}
+
 TEST(SolverTime, WhatFitsIsBegunAndWhatDoesNotIsRefusedWithWhatWouldHelp) {
   const mesh::Mesh mesh = test::box_mesh(mesh::ElementType::hex8, {});
   EXPECT_NO_THROW(require_time(mesh, ten));
