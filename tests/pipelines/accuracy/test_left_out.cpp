@@ -336,13 +336,16 @@ TEST(LeftOut, TheMeanOfNormalMotionThatIsOffIsPutBack) {
     ASSERT_TRUE(height != nullptr && place != nullptr) << harmonics;
     const double expected = amplitude(with) / amplitude(without) - 1.0;
     EXPECT_GT(std::abs(expected), 0.02);
-    EXPECT_NEAR(height->effect, expected, 1e-6) << harmonics;
-    // A peak is flat: its place is known to the root of what its height is.
+    constexpr double known = 1e-6;
+    EXPECT_NEAR(height->effect, expected, known) << harmonics;
+    // A peak is flat, a = 1 - (d/zeta)^2/2 at d of the frequency beside it: within that height d is
+    // not known.
+    const double flat = 0.03 * std::sqrt(2.0 * known);
     EXPECT_NEAR(place->effect,
                 highest_peak(with.curves[0].curve)->frequency /
                         highest_peak(without.curves[0].curve)->frequency -
                     1.0,
-                1e-5);
+                flat);
     const std::vector<RicherModel> others =
         models_left_out(without.model, without.scene, nullptr).models;
     EXPECT_EQ(found(rows_of(with), "mean_coupling", peak_amplitude_goal), nullptr);
