@@ -1,5 +1,6 @@
 #include "fem/stress_jumps.hpp"
 
+#include <algorithm>
 #include <map>
 #include <numbers>
 #include <stdexcept>
@@ -51,8 +52,11 @@ struct ElementStress {
 /// Sums over the elements of a mesh.
 class Recovery {
  public:
-  Recovery(const mesh::Mesh& mesh, const Material& material, const Eigen::MatrixXd& shapes)
-      : mesh_(mesh), lame_(material), poisson_(material.poissons_ratio), shapes_(shapes) {}
+  Recovery(const mesh::Mesh& mesh, const Material& material, Eigen::MatrixXd shapes)
+      : mesh_(mesh),
+        lame_(material),
+        poisson_(material.poissons_ratio),
+        shapes_(std::move(shapes)) {}
 
   [[nodiscard]] Eigen::VectorXd excess() {
     average();
@@ -148,7 +152,7 @@ class Recovery {
   const mesh::Mesh& mesh_;
   LameConstants lame_;
   double poisson_;
-  const Eigen::MatrixXd& shapes_;
+  Eigen::MatrixXd shapes_;
   Eigen::MatrixXd nodal_;  ///< σ* at the nodes, n_nodes × 6 n_shapes
 };
 
@@ -161,7 +165,13 @@ Eigen::VectorXd frequency_excess(const mesh::Mesh& mesh, const Material& materia
     throw std::invalid_argument("shapes have " + std::to_string(shapes.rows()) +
                                 " rows, 3 per mesh node are " + std::to_string(3 * mesh.n_nodes()));
   }
-  return Recovery(mesh, material, shapes).excess();
+  constexpr Eigen::Index at_once = 8;  // stress at the nodes takes six numbers of each
+  Eigen::VectorXd excess(shapes.cols());
+  for (Eigen::Index first = 0; first < shapes.cols(); first += at_once) {
+    const Eigen::Index n = std::min(at_once, shapes.cols() - first);
+    excess.segment(first, n) = Recovery(mesh, material, shapes.middleCols(first, n)).excess();
+  }
+  return excess;
 }
 
 }  // namespace microslip::fem

@@ -124,7 +124,7 @@ EffectDecision separation(const EffectFacts& facts) {
     decision.refusal = fmt::format(
         "the load changes by {} its value in the linear limits, so that points open; held closed "
         "they would pull, and friction has no law there: leave it to \"auto\", raise "
-        "response.preload, or keep the load that of rest by effects.normal_motion = \"off\"",
+        "the preload, or keep the load that of rest by effects.normal_motion = \"off\"",
         times_text(decision.indicator.value_or(HUGE_VAL)));
     return decision;
   }
