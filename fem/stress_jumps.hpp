@@ -2,7 +2,7 @@
 /// How much too high natural frequencies are by the elements of their mesh, told from that mesh
 /// alone: by how much the stress jumps from element to element.
 ///
-///   η² = Σ_e ∫ (σ* − σ) : C⁻¹ : (σ* − σ) dV,    (f − f₀)/f ≈ s η²/(2 φᵀKφ)                    (1)
+///   η² = Σ_e ∫ (σ* − σ) : C⁻¹ : (σ* − σ) dV,    f₀/f ≈ (1 + s η²/φᵀKφ)^−½                    (1)
 ///
 /// Eigenvalues lie above their limit by the energy of the error of their shape. σ is the stress of
 /// a shape at the points at which its stiffness is integrated; σ* is made linear in every element,
@@ -25,7 +25,8 @@
 
 namespace microslip::fem {
 
-/// (f − f₀)/f [-] by (1) of every shape; 0 where nothing is strained.
+/// (f − f₀)/f [-] by (1) of every shape, below 1; 0 where nothing is strained. K is that of the
+/// elements alone, without what rotation adds.
 /// @param shapes  3 n_nodes × n, x y z per mesh node, of any scale.
 /// @param material  of the whole mesh; E and the density do not matter.
 /// @throws std::invalid_argument  a material out of range, or another number of rows.

@@ -72,7 +72,8 @@ class Recovery {
         add_energy(stress.values.row(i), stress.volume[i], energy);
       }
     });
-    return (energy.array() > 0.0).select(0.5 * safety * jumps.array() / energy.array(), 0.0);
+    const Eigen::ArrayXd share = safety * jumps.array() / energy.array();
+    return (energy.array() > 0.0).select(1.0 - (1.0 + share).rsqrt(), 0.0);
   }
 
  private:

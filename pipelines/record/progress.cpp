@@ -196,7 +196,9 @@ void Progress::point(const std::string& curve, const solver::ResponsePoint& poin
   if (now - last_drawn_ < (terminal_ ? redraw_interval : plain_interval)) return;
   last_drawn_ = now;
   std::string line = fmt::format("{}  {}", stage_, text);
-  if (fraction > first_guess) line += "  " + duration_text(seconds_left(now)) + " left";
+  if (fraction > first_guess) {
+    line += "  " + duration_text(fraction < 1.0 ? seconds_left(now) : 0.0) + " left";
+  }
   if (terminal_) {
     draw_live(line);
   } else {

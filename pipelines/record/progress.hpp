@@ -105,7 +105,7 @@ class Progress {
   void start_clock();
   void tell_time(const std::stop_token& stop);
   [[nodiscard]] std::string time_text(Clock::time_point now) const;
-  [[nodiscard]] double seconds_left(Clock::time_point now) const;
+  [[nodiscard]] double seconds_left(Clock::time_point now) const;  ///< below 0: more than expected
   void open_history(RunStart start);
   void append_history(const std::string& curve, const solver::ResponsePoint& point);
   [[nodiscard]] StageRecord running_stage() const;

@@ -44,6 +44,13 @@ ReducedModel telling_model_of(const SceneDescription& scene, const SolvedStructu
   return model_of(scene, structure, warnings);
 }
 
+/// Of a large mesh it takes seconds.
+MeshExcess telling_mesh_excess(const mesh::Mesh& mesh, const StructureModes& modes,
+                               const SceneDescription& scene, Progress& progress) {
+  const Progress::Part part = progress.part("jumps of stress between elements");
+  return mesh_excess(mesh, modes, scene);
+}
+
 }  // namespace
 
 StructurePointer solved_structure(const SceneDescription& scene, RunRecord& record) {
@@ -74,7 +81,7 @@ StructurePointer solved_structure(const SceneDescription& scene, RunRecord& reco
   if (!scene.modes.residual_note.empty()) record.progress().info(scene.modes.residual_note);
   record.keep_modes(mesh, *modes,
                     damping_ratios(scene.modes, modes->basis.frequency, modes->basis.n_attachment));
-  const MeshExcess excess = mesh_excess(mesh, *modes, scene);
+  const MeshExcess excess = telling_mesh_excess(mesh, *modes, scene, record.progress());
   if (!excess.text.empty()) record.progress().info(excess.text);
   if (!excess.warning.empty()) record.progress().warning(excess.warning);
   SolvedStructure structure{std::move(mesh), std::move(*modes)};

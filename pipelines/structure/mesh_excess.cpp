@@ -17,13 +17,16 @@ namespace microslip::pipelines {
 namespace {
 
 constexpr double percent = 100.0;
+constexpr std::ptrdiff_t most = 4;  // modes that are told: each takes as long as an assembly
 
 bool is_told(const SceneDescription& scene, const StructureModes& modes) {
   const auto* file = std::get_if<MeshFileModel>(&scene.model);
-  return file != nullptr && !file->modes && !file->matrices && modes.basis.n_free() > 0;
+  if (file == nullptr || file->modes || file->matrices) return false;
+  return !scene.rotation && modes.basis.n_free() > modes.basis.n_rigid_body;
 }
 
-/// Those that are not rigid, up to the end of the range, at least one; of no range all.
+/// Those that are not rigid, up to the end of the range, at least one, and of many the last few:
+/// they count for the curves. Of no range the first few.
 std::vector<Eigen::Index> modes_of_range(const SceneDescription& scene,
                                          const StructureModes& modes) {
   const double end = scene.response ? std::max(scene.response->frequency_begin_hz,
@@ -33,9 +36,17 @@ std::vector<Eigen::Index> modes_of_range(const SceneDescription& scene,
   for (Eigen::Index i = modes.basis.n_rigid_body; i < modes.basis.n_free(); ++i) {
     const bool is_above = modes.basis.frequency[i] > 2.0 * std::numbers::pi * end;
     if (is_above && !in_range.empty()) break;
+    if (!scene.response && std::ssize(in_range) == most) break;
     in_range.push_back(i);
   }
+  if (std::ssize(in_range) > most) in_range.erase(in_range.begin(), in_range.end() - most);
   return in_range;
+}
+
+bool are_quadratic(const mesh::Mesh& mesh) {
+  return std::ranges::all_of(mesh.elements(), [](const mesh::ElementBlock& block) {
+    return mesh::is_quadratic(block.type);
+  });
 }
 
 }  // namespace
@@ -45,7 +56,6 @@ MeshExcess mesh_excess(const mesh::Mesh& mesh, const StructureModes& modes,
   MeshExcess told;
   if (!is_told(scene, modes)) return told;
   const std::vector<Eigen::Index> which = modes_of_range(scene, modes);
-  if (which.empty()) return told;
   const Eigen::VectorXd excess =
       fem::frequency_excess(mesh, scene.material, modes.basis.shapes(Eigen::all, which));
   std::vector<std::string> each;
@@ -60,8 +70,8 @@ MeshExcess mesh_excess(const mesh::Mesh& mesh, const StructureModes& modes,
   if (excess.maxCoeff() <= limit) return told;
   told.warning = fmt::format(
       "model.file: its elements put natural frequencies too high by up to some {:.2g} %, and peaks "
-      "with them, which is in no bar: take smaller or quadratic ones",
-      percent * excess.maxCoeff());
+      "with them, which is in no bar: take {}",
+      percent * excess.maxCoeff(), are_quadratic(mesh) ? "smaller ones" : "quadratic ones");
   return told;
 }
 

@@ -17,8 +17,9 @@ struct MeshExcess {
   std::string warning;  ///< where it is more than is asked for, or than 2 %
 };
 
-/// By fem/stress_jumps.hpp. Not told of meshes made here, nor of modes and matrices of another
-/// code. @param modes  of the mesh as it is.
+/// By fem/stress_jumps.hpp. Not told of meshes made here, of modes and matrices of another code,
+/// nor of a body that rotates, whose stiffness is not that of its elements alone.
+/// @param modes  of the mesh as it is.
 [[nodiscard]] MeshExcess mesh_excess(const mesh::Mesh& mesh, const StructureModes& modes,
                                      const SceneDescription& scene);
 

@@ -85,6 +85,8 @@ ContinuationOptions range_about(const Scene& scene, ContinuationOptions options)
   options.frequency_begin = std::max(low, (1.0 - farthest) * frequency);
   options.frequency_end = std::min(high, (1.0 + farthest) * frequency);
   options.judge_stability = options.require_proof = false;  // of what is no row
+  constexpr int most_points = 2000;                         // a curve takes some hundred
+  options.max_points = std::min(options.max_points, most_points);
   return options;
 }
 
@@ -95,7 +97,7 @@ class Search {
 
   void run() {
     for (const double frequency : search_frequencies(scene_, options_, curve_)) {
-      if (options_.stop && options_.stop()) return;
+      if (is_stopped()) return;
       search_at(frequency);
     }
   }
@@ -114,7 +116,7 @@ class Search {
       for (const Eigen::VectorXd& own : std::vector(known)) keep_crossings(own, frequency, known);
     }
     for (int i = 0; i < options_.search_starts; ++i) {
-      if (curve_.detached.size() >= most_branches) return;
+      if (curve_.detached.size() >= most_branches || is_stopped()) return;
       ++curve_.n_starts;
       const std::optional<Eigen::VectorXd> found =
           deflated(start(i, frequency, known), frequency, known);
@@ -129,6 +131,8 @@ class Search {
     }
   }
 
+  [[nodiscard]] bool is_stopped() const { return options_.stop && options_.stop(); }
+
   [[nodiscard]] bool is_point() const { return options_.frequency_begin == options_.frequency_end; }
 
   [[nodiscard]] NewtonResult solved_near(const Eigen::VectorXd& x, double frequency) {
@@ -142,6 +146,7 @@ class Search {
   /// Of one frequency: where the branch of a solution comes back to it.
   void keep_crossings(const Eigen::VectorXd& x, double frequency,
                       std::vector<Eigen::VectorXd>& known) {
+    if (is_stopped()) return;
     NewtonResult start = solved_near(x, frequency);
     if (!start.converged) return;
     const ContinuationOptions range = range_about(scene_, options_);
