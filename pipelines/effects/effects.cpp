@@ -73,7 +73,8 @@ std::optional<double> cost_of(std::string_view name, const EffectFacts& facts) {
   if (name == "nonlinearity") return all;  // the limits take nothing
   CurveEffects without = with;
   if (name == "higher_harmonics") {
-    with.several_harmonics = with.chosen_harmonics = true;
+    // Of those asked for; of one alone, of what choosing them would take.
+    if (!with.several_harmonics) with.several_harmonics = with.chosen_harmonics = true;
     without.several_harmonics = without.chosen_harmonics = false;
   } else if (const Costly* effect = costly(name); effect != nullptr) {
     if (!can_be(name, facts)) return std::nullopt;

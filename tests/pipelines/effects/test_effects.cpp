@@ -165,6 +165,18 @@ TEST(Effects, WhatASceneCannotHaveHasNoCost) {
   EXPECT_FALSE(cost(scene_of({"modal.points[0].normal_stiffness=0"}), "roughness").has_value());
 }
 
+TEST(Effects, WhatIsAskedForCostsNoMoreThanTheCurvesThatHaveIt) {
+  for (const char* harmonics : {"response.harmonics=5", "response.harmonics=auto"}) {
+    const SceneDescription scene = scene_of({harmonics});
+    const ReducedModel model = model_in(scene);
+    const std::vector<EffectRecord> effects = effects_of(scene, &model);
+    const double whole = effect_in(effects, "nonlinearity").seconds.value_or(0.0);
+    const double higher = effect_in(effects, "higher_harmonics").seconds.value_or(0.0);
+    EXPECT_GT(higher, 0.0) << harmonics;
+    EXPECT_LT(higher, whole) << harmonics;
+  }
+}
+
 TEST(Effects, ReachOfAPointIsThatOfItsLimits) {
   const SceneDescription scene = scene_of({});
   const ContactReach reach = contact_reach(model_in(scene), scene, 1.0);
