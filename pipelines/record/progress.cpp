@@ -147,6 +147,16 @@ void Progress::start_clock() {
   }
 }
 
+Progress::Clock::duration Progress::silence(Clock::time_point now) const {
+  return now - std::max(last_drawn_, stage_begin_);
+}
+
+std::chrono::seconds Progress::plain_interval() const {
+  constexpr std::chrono::seconds first{2};
+  constexpr std::chrono::seconds later{10};  // enough to see that it lives
+  return last_drawn_ < stage_begin_ ? first : later;
+}
+
 double Progress::seconds_left(Clock::time_point now) const {
   const double elapsed = Seconds(now - part_begin_).count();
   const bool is_told = fraction_ > first_guess && fraction_ < 1.0;
@@ -169,9 +179,9 @@ void Progress::tell_time(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
   while (!stop.stop_requested()) {
     stopped_.wait_for(lock, stop, tick, [] { return false; });
-    const std::chrono::seconds silence{!terminal_ ? 10 : has_points_ ? 3 : 1};
     const Clock::time_point now = Clock::now();
-    if (stage_.empty() || now - std::max(last_drawn_, stage_begin_) < silence) continue;
+    const std::chrono::seconds on_terminal{has_points_ ? 3 : 1};
+    if (stage_.empty() || silence(now) < (terminal_ ? on_terminal : plain_interval())) continue;
     last_drawn_ = now;
     const std::string line = time_text(now);
     if (terminal_) {
@@ -191,9 +201,10 @@ void Progress::point(const std::string& curve, const solver::ResponsePoint& poin
   const std::string text = describe(curve, point);
   if (verbosity_ == Verbosity::verbose) return print_line("  " + text);
   constexpr std::chrono::milliseconds redraw_interval{100};  // for the eye
-  constexpr std::chrono::seconds plain_interval{10};         // enough to see that it lives
   const Clock::time_point now = Clock::now();
-  if (now - last_drawn_ < (terminal_ ? redraw_interval : plain_interval)) return;
+  const bool is_due =
+      terminal_ ? now - last_drawn_ >= redraw_interval : silence(now) >= plain_interval();
+  if (!is_due) return;
   last_drawn_ = now;
   std::string line = fmt::format("{}  {}", stage_, text);
   if (fraction > first_guess) {

@@ -51,8 +51,8 @@ class Progress {
   /// Ends the stage before and begins this one.
   void stage(const std::string& name);
   /// What this stage, or what of it begins now, is expected to take [s]; 0: not known. While it
-  /// says nothing else, a stage tells every second on a terminal, every ten elsewhere, how long it
-  /// has taken and what is left.
+  /// says nothing else, a stage tells how long it has taken and what is left: every second on a
+  /// terminal, elsewhere after two and then every ten.
   void expect(double seconds);
   /// What of this stage is being done, for those lines, as long as the object lives; of several the
   /// one begun last.
@@ -104,6 +104,10 @@ class Progress {
   void end_part(int number);
   void start_clock();
   void tell_time(const std::stop_token& stop);
+  /// Since the last line of the stage, or its begin.
+  [[nodiscard]] Clock::duration silence(Clock::time_point now) const;
+  /// After which a line is due that is not drawn on a terminal.
+  [[nodiscard]] std::chrono::seconds plain_interval() const;
   [[nodiscard]] std::string time_text(Clock::time_point now) const;
   [[nodiscard]] double seconds_left(Clock::time_point now) const;  ///< below 0: more than expected
   void open_history(RunStart start);

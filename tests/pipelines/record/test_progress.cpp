@@ -196,6 +196,19 @@ TEST(Progress, TerminalGetsOneLiveLineThatIsClearedAtTheEnd) {
   EXPECT_NE(out.str().find("\r\033[Kcurves "), std::string::npos);
 }
 
+TEST(Progress, OutsideATerminalAStageSpeaksAfterTwoSeconds) {
+  std::ostringstream out;
+  Progress progress(out, false, Verbosity::normal);
+  progress.stage("modes");
+  progress.expect(60.0);
+  progress.point("preload_6", {}, 0.5);
+  EXPECT_EQ(out.str(), "") << "its first moment";
+  std::this_thread::sleep_for(std::chrono::milliseconds(3200));
+  progress.finish();
+  const std::regex once("modes  [23] s, some [0-9]+ s left\n");
+  EXPECT_TRUE(std::regex_search(out.str(), once)) << out.str();
+}
+
 TEST(Progress, OutsideATerminalThereAreNoControlCharacters) {
   std::ostringstream out;
   {
