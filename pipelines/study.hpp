@@ -6,11 +6,11 @@
 
 #include "pipelines/description/scene_description.hpp"
 #include "pipelines/record/run_options.hpp"
-#include "pipelines/run/campbell_study.hpp"
-#include "pipelines/run/check_study.hpp"
-#include "pipelines/run/converge_study.hpp"
-#include "pipelines/run/mesh_study.hpp"
-#include "pipelines/run/report_study.hpp"
+#include "pipelines/studies/campbell_study.hpp"
+#include "pipelines/studies/check_study.hpp"
+#include "pipelines/studies/converge_study.hpp"
+#include "pipelines/studies/mesh_study.hpp"
+#include "pipelines/studies/report_study.hpp"
 
 namespace microslip::pipelines {
 

@@ -64,7 +64,7 @@ set(uses_solver_optimum balance peak enrichment curve)
 
 # `face` are the sources at the root.
 set(drawers_pipelines system text description sections scene import model structure effects response accuracy
-  files record questions run cycle face command_line)
+  files record questions stages studies cycle face command_line)
 set(uses_pipelines_text system)
 set(uses_pipelines_description system text)
 set(uses_pipelines_sections system text description)
@@ -78,11 +78,13 @@ set(uses_pipelines_accuracy system text description scene model structure effect
 set(uses_pipelines_files system text description model structure effects response accuracy)
 set(uses_pipelines_record system text model structure effects response accuracy files)
 set(uses_pipelines_questions system text description scene import model response record)
-set(uses_pipelines_run system text description scene import model structure effects response accuracy files record
+set(uses_pipelines_stages system text description scene import model structure effects response accuracy files record
   questions)
+set(uses_pipelines_studies system text description scene import model structure effects response accuracy files record
+  questions stages)
 set(uses_pipelines_cycle system text files)
 set(uses_pipelines_face system text description sections scene import model structure effects response accuracy files
-  record questions run cycle)
+  record questions stages studies cycle)
 set(uses_pipelines_command_line system text cycle face)
 
 # Doors that stay open: what a scene and a mesh say about a patch (fields over it, fitted mode shapes, preload that

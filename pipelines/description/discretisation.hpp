@@ -40,7 +40,7 @@ struct HarmonicSettings {
   double tolerance = 0.0;     ///< above 0: chosen, see solver::ContinuationOptions
   bool checked = true;        ///< given ones are checked with more at the peaks
   /// Of a run that begins with them for want of time: a curve that is not at its end by the end of
-  /// its share of the budget is solved with one (run/first_settings.hpp).
+  /// its share of the budget is solved with one (stages/first_settings.hpp).
   bool or_one = false;
   [[nodiscard]] bool chosen() const { return tolerance > 0.0; }
 };

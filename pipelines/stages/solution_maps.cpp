@@ -1,10 +1,10 @@
-#include "pipelines/run/solution_maps.hpp"
+#include "pipelines/stages/solution_maps.hpp"
 
 #include <cstddef>
 #include <string>
 #include <vector>
 
-#include "pipelines/run/curve_family.hpp"
+#include "pipelines/stages/curve_family.hpp"
 #include "pipelines/system/deadline.hpp"
 
 namespace microslip::pipelines {

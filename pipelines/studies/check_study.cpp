@@ -1,4 +1,4 @@
-#include "pipelines/run/check_study.hpp"
+#include "pipelines/studies/check_study.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -27,13 +27,13 @@
 #include "pipelines/model/scene_warnings.hpp"
 #include "pipelines/questions/questions.hpp"
 #include "pipelines/response/response_stage.hpp"
-#include "pipelines/run/draw_scene.hpp"
-#include "pipelines/run/stage_seconds.hpp"
+#include "pipelines/stages/stage_seconds.hpp"
 #include "pipelines/structure/extrapolated_modes.hpp"
 #include "pipelines/structure/memory_before_mesh.hpp"
 #include "pipelines/structure/solver_time.hpp"
 #include "pipelines/structure/static_preload.hpp"
 #include "pipelines/structure/structure_stage.hpp"
+#include "pipelines/studies/draw_scene.hpp"
 #include "pipelines/system/interrupt.hpp"
 #include "pipelines/system/scene_error.hpp"
 #include "pipelines/system/temporary_folder.hpp"

@@ -1,4 +1,4 @@
-#include "pipelines/run/report_study.hpp"
+#include "pipelines/studies/report_study.hpp"
 
 #include <optional>
 #include <string>

@@ -1,4 +1,4 @@
-#include "pipelines/run/model_stages.hpp"
+#include "pipelines/stages/model_stages.hpp"
 
 #include <optional>
 #include <utility>
@@ -12,7 +12,7 @@
 #include "pipelines/model/scene_places.hpp"
 #include "pipelines/model/scene_warnings.hpp"
 #include "pipelines/questions/questions.hpp"
-#include "pipelines/run/stage_seconds.hpp"
+#include "pipelines/stages/stage_seconds.hpp"
 #include "pipelines/structure/extrapolated_modes.hpp"
 #include "pipelines/structure/memory_before_mesh.hpp"
 #include "pipelines/structure/mesh_excess.hpp"

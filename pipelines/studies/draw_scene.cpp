@@ -1,4 +1,4 @@
-#include "pipelines/run/draw_scene.hpp"
+#include "pipelines/studies/draw_scene.hpp"
 
 #include <chrono>
 #include <string>

@@ -1,4 +1,4 @@
-#include "pipelines/run/curve_family.hpp"
+#include "pipelines/stages/curve_family.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -22,8 +22,8 @@
 #include "pipelines/accuracy/left_out.hpp"
 #include "pipelines/model/curve_load.hpp"
 #include "pipelines/response/response_stage.hpp"
-#include "pipelines/run/kept_results.hpp"
-#include "pipelines/run/shared_curves.hpp"
+#include "pipelines/stages/kept_results.hpp"
+#include "pipelines/stages/shared_curves.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/in_parallel.hpp"
 #include "pipelines/system/interrupt.hpp"

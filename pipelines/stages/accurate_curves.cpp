@@ -1,4 +1,4 @@
-#include "pipelines/run/accurate_curves.hpp"
+#include "pipelines/stages/accurate_curves.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +10,8 @@
 #include <fmt/ranges.h>
 
 #include "pipelines/accuracy/refinement.hpp"
-#include "pipelines/run/missed_effects.hpp"
-#include "pipelines/run/solved_again.hpp"
+#include "pipelines/stages/missed_effects.hpp"
+#include "pipelines/stages/solved_again.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/text/rounded.hpp"
 

@@ -1,4 +1,4 @@
-#include "pipelines/run/converge_study.hpp"
+#include "pipelines/studies/converge_study.hpp"
 
 #include <iostream>
 

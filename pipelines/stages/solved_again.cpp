@@ -1,4 +1,4 @@
-#include "pipelines/run/solved_again.hpp"
+#include "pipelines/stages/solved_again.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +11,8 @@
 #include "pipelines/description/damping_ratios.hpp"
 #include "pipelines/effects/effects.hpp"
 #include "pipelines/effects/motion_along_r.hpp"
-#include "pipelines/run/curve_family.hpp"
-#include "pipelines/run/stage_seconds.hpp"
+#include "pipelines/stages/curve_family.hpp"
+#include "pipelines/stages/stage_seconds.hpp"
 #include "pipelines/structure/extrapolated_modes.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/scene_error.hpp"

@@ -1,4 +1,4 @@
-#include "pipelines/run/stage_seconds.hpp"
+#include "pipelines/stages/stage_seconds.hpp"
 
 #include <algorithm>
 #include <array>

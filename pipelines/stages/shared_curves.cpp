@@ -1,4 +1,4 @@
-#include "pipelines/run/shared_curves.hpp"
+#include "pipelines/stages/shared_curves.hpp"
 
 #include <algorithm>
 #include <array>

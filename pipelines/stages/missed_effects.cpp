@@ -1,4 +1,4 @@
-#include "pipelines/run/missed_effects.hpp"
+#include "pipelines/stages/missed_effects.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include <fmt/ranges.h>
 
 #include "pipelines/response/response_stage.hpp"
-#include "pipelines/run/solved_again.hpp"
+#include "pipelines/stages/solved_again.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/text/rounded.hpp"
 

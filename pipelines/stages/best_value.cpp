@@ -1,4 +1,4 @@
-#include "pipelines/run/best_value.hpp"
+#include "pipelines/stages/best_value.hpp"
 
 #include <cmath>
 #include <cstddef>
@@ -11,9 +11,9 @@
 
 #include "pipelines/accuracy/optimum_budget.hpp"
 #include "pipelines/response/optimum_stage.hpp"
-#include "pipelines/run/kept_results.hpp"
-#include "pipelines/run/solution_maps.hpp"
-#include "pipelines/run/stage_seconds.hpp"
+#include "pipelines/stages/kept_results.hpp"
+#include "pipelines/stages/solution_maps.hpp"
+#include "pipelines/stages/stage_seconds.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/in_parallel.hpp"
 

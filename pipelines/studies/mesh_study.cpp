@@ -1,4 +1,4 @@
-#include "pipelines/run/mesh_study.hpp"
+#include "pipelines/studies/mesh_study.hpp"
 
 #include <iostream>
 

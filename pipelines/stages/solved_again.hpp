@@ -11,7 +11,7 @@
 
 #include "pipelines/accuracy/refinement.hpp"
 #include "pipelines/record/run_record.hpp"
-#include "pipelines/run/solution.hpp"
+#include "pipelines/stages/solution.hpp"
 #include "pipelines/system/temporary_folder.hpp"
 
 namespace microslip::pipelines {

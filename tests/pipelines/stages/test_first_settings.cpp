@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "pipelines/run/first_settings.hpp"
 #include "pipelines/scene/scene_file.hpp"
+#include "pipelines/stages/first_settings.hpp"
 
 namespace microslip::pipelines::test_first_settings {
 namespace {

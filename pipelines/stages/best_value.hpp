@@ -5,7 +5,7 @@
 
 #include "pipelines/record/run_options.hpp"
 #include "pipelines/record/run_record.hpp"
-#include "pipelines/run/solution.hpp"
+#include "pipelines/stages/solution.hpp"
 
 namespace microslip::pipelines {
 

@@ -1,4 +1,4 @@
-#include "pipelines/run/first_settings.hpp"
+#include "pipelines/stages/first_settings.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "pipelines/run/campbell_study.hpp"
+#include "pipelines/studies/campbell_study.hpp"
 
 #include <iostream>
 #include <numbers>

@@ -1,4 +1,4 @@
-#include "pipelines/run/kept_results.hpp"
+#include "pipelines/stages/kept_results.hpp"
 
 #include <algorithm>
 #include <filesystem>
