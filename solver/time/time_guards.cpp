@@ -45,6 +45,8 @@ struct GuardAlong {
   }
 };
 
+bool is_root(double value) { return std::abs(value) <= 0.1 * guard_tolerance; }
+
 /// Root of g in [low, high], g(low) > 0 ≥ g(high): regula falsi with halved weights (Illinois),
 /// every third step a bisection. The result is not positive,
 /// or positive by less than a tenth of the tolerance.
@@ -54,7 +56,7 @@ double bracketed_root(const GuardAlong& g, double low, double high, double g_low
     double x = i % 3 == 0 ? 0.5 * (low + high) : (low * g_high - high * g_low) / (g_high - g_low);
     if (!(x > low && x < high)) x = 0.5 * (low + high);
     const double value = g(x);
-    if (std::abs(value) <= 0.1 * guard_tolerance) return x;
+    if (is_root(value)) return x;
     if (value > 0.0) {
       low = x;
       g_low = value;
@@ -106,20 +108,37 @@ bool may_dip(const Samples& g, std::size_t middle) {
   return g[middle] - 1.1 * drop - 0.1 * std::max(before, after) <= 0.0;
 }
 
-/// First x at which a guard with these samples (tolerance added) is negative; 2: nowhere.
-double first_violation(const GuardAlong& along, const Samples& g) {
+constexpr double nowhere = 2.0;
+
+/// As bracketed_root(), or nowhere if the root lies beyond `last`: one evaluation tells.
+double root_until(const GuardAlong& g, double low, double high, double g_low, double g_high,
+                  double last) {
+  if (last < high) {
+    const double value = g(last);
+    if (is_root(value)) return last;  // that of an equal point
+    if (value > 0.0) return nowhere;
+    high = last;
+    g_high = value;
+  }
+  return bracketed_root(g, low, high, g_low, g_high);
+}
+
+/// First x up to `last` at which a guard with these samples (tolerance added) is negative.
+double first_violation(const GuardAlong& along, const Samples& g, double last) {
   if (g[0] < 0.0) return 0.0;
-  for (std::size_t j = 1; j < n_samples; ++j) {
+  for (std::size_t j = 1; j < n_samples && sample_at[j - 1] <= last; ++j) {
     if (g[j] < 0.0) {
-      return bracketed_root(along, sample_at[j - 1], sample_at[j], g[j - 1], g[j]);
+      return root_until(along, sample_at[j - 1], sample_at[j], g[j - 1], g[j], last);
     }
     if (j + 1 < n_samples && g[j + 1] >= 0.0 && may_dip(g, j)) {
       const double bottom = descend(along, sample_at[j - 1], sample_at[j + 1]);
       const double value = along(bottom);
-      if (value < 0.0) return bracketed_root(along, sample_at[j - 1], bottom, g[j - 1], value);
+      if (value < 0.0) {
+        return root_until(along, sample_at[j - 1], bottom, g[j - 1], value, last);
+      }
     }
   }
-  return 2.0;
+  return nowhere;
 }
 
 }  // namespace
@@ -138,15 +157,18 @@ std::optional<TimeEvent> first_event(const TransientForce& contact, const TimeSe
     Eigen::Index point;
   };
   std::vector<Violation> violations;
-  double first = 2.0;
+  // Many points change in a step of a patch, and each change ends it: those after the first so far
+  // are not looked for.
+  double first = nowhere;
   for (Eigen::Index point = 0; point < contact.n_points(); ++point) {
-    double at = 2.0;
+    double at = nowhere;
     for (std::size_t guard = 0; guard < TransientForce::guards_per_point; ++guard) {
       Samples g{};
       for (std::size_t j = 0; j < n_samples; ++j) {
         g[j] = sampled[j](point, static_cast<Eigen::Index>(guard)) + guard_tolerance;
       }
-      at = std::min(at, first_violation({contact, segment, along, scale, point, guard}, g));
+      const double last = first + simultaneous;
+      at = std::min(at, first_violation({contact, segment, along, scale, point, guard}, g, last));
     }
     if (at <= 1.0) violations.push_back({at, point});
     first = std::min(first, at);
