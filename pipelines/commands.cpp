@@ -196,6 +196,8 @@ int check(Arguments& arguments) {
           {"errors_seconds", forecast.response.errors},
           {"best_value_seconds", forecast.response.best_value},
           {"bracket_seconds", forecast.response.bracket},
+          {"maps_seconds", forecast.pictures.maps},
+          {"plots_seconds", forecast.pictures.plots},
           {"memory_GB", forecast.memory_gb}};
   if (forecast.solver_memory) {
     cost["memory_direct_GB"] = 1e-3 * forecast.solver_memory->direct_mb;

@@ -32,6 +32,7 @@ int run_study(const SceneDescription& asked, const RunOptions& options) {
     require_held(solution.model, scene);
     require_curves(solution.model, scene);
     record.stage("curves");
+    record.progress().expect(curves_seconds(solution.model, scene, options.jobs));
     fem::use_one_blas_thread();
     contact::allow_cores(options.jobs);
     solution.curves = trace_family(solution.model, scene, options.jobs, record);
@@ -51,9 +52,11 @@ int run_study(const SceneDescription& asked, const RunOptions& options) {
       draw_maps_and_find_best_value(solution, options, record);
     } else if (options.maps) {
       record.stage("maps");
+      record.progress().expect(picture_seconds(scene).maps / options.jobs);
       draw_maps(solution, options.jobs, record);
     }
     record.stage("report");
+    if (options.plots) record.progress().expect(picture_seconds(scene).plots / options.jobs);
     const Progress::Part part = record.progress().part("plots");
     record.keep_report();
   });

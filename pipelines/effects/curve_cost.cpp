@@ -9,6 +9,7 @@
 #include "contact/contact_force.hpp"
 #include "pipelines/description/curve_request.hpp"
 #include "pipelines/description/effects_left_out.hpp"
+#include "pipelines/system/machine_speed.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -28,17 +29,24 @@ constexpr double of_an_effect = 190.0;
 constexpr double of_one_frequency = 25.0;
 constexpr double of_a_check = 30.0;  // of the peak, with eight harmonics more than were given
 constexpr double of_a_start = 20.0;
-constexpr double of_error_rows =
-    300.0;  // of a curve: five richer models, one of four times the points
-constexpr double of_error_rows_of_chosen = 450.0;  // peaks have more harmonics than their curves
+// Of a curve: five richer models, one of four times the points.
+constexpr double of_error_rows = 450.0;
+constexpr double of_error_rows_of_chosen = 700.0;  // peaks have more harmonics than their curves
 constexpr double rows_of_a_linear_curve = 0.2;     // of others: no point is awake
-constexpr double curves_of_a_search = 30.0;        // for a best value, as many evaluations
+// Of a search for a best value; of one that may end sooner, with its error.
+constexpr double of_a_search = 18'000.0;
+constexpr double of_a_short_search = 12'000.0;
+// The error of the former, in searches, and what more harmonics would change: richer curves.
+constexpr double searches_of_its_error = 0.5;
+constexpr double richer_curves_of_a_search = 5.0;
 constexpr double searches_of_a_bracket = 4.0;
+constexpr int few_harmonics = 3;                  // of a bracket beside a short search
 constexpr double frequencies_of_a_search = 14.0;  // of a range (solver/curve/branch_search.hpp)
 
 constexpr double points_of_a_curve = 95.0;
 constexpr int harmonics_of_a_choice = 7;  // about, where contact slips
 constexpr int harmonics_of_a_choice_on_a_mesh = 9;
+constexpr int harmonics_of_a_choice_in_plane = 12;
 constexpr double period_map = 2.2e-4;          // of a point in scenes of few states, over harmonics
 constexpr double states_of_a_period_map = 16;  // at most (solver/stability/stability.hpp)
 constexpr double factorisation = 6e-11;        // over the cube of the unknowns
@@ -52,6 +60,7 @@ constexpr double hill_of_many = 4e-3;
 constexpr double periods_from_rest = 250.0;
 constexpr double periods_of_a_step = 100.0;  // to the next frequency
 constexpr double point_period = 0.9e-3;      // one contact point, one period
+constexpr double points_of_a_step = 32.0;    // so many more, and steps are twice as many
 
 struct Size {
   double points = 0.0;
@@ -108,8 +117,9 @@ Size size_of(const SceneDescription& scene, const CurveEffects& effects) {
   int n_given = given.orders.empty() ? given.highest : static_cast<int>(given.orders.size());
   const bool chosen = effects.chosen_harmonics || (effects.several_harmonics && n_given == 1);
   if (given.orders.empty() && has_odd_motions(scene, effects)) n_given = (n_given + 1) / 2;
-  const int n_chosen =
-      scene.contacts.empty() ? harmonics_of_a_choice : harmonics_of_a_choice_on_a_mesh;
+  const int n_chosen = scene.contacts.empty()     ? harmonics_of_a_choice
+                       : effects.second_direction ? harmonics_of_a_choice_in_plane
+                                                  : harmonics_of_a_choice_on_a_mesh;
   size.harmonics = chosen ? n_chosen : effects.several_harmonics ? n_given : 1;
   return size;
 }
@@ -129,20 +139,20 @@ double point_seconds(const CurveEffects& effects, const Size& size) {
   const bool plain = is_plain(effects);
   const double more = size.harmonics - 1;  // harmonics
   const double square = size.harmonics * size.harmonics;
-  const double both = rough && effects.rate_dependence ? 1.25 : 1.0;
+  const double both = rough && effects.rate_dependence ? 2.0 : 1.0;
   const double in_plane =
       effects.second_direction && (rough || effects.rate_dependence) ? 1.9 : 1.0;
   switch (method_of(effects, size)) {
     case contact::Method::closed_form:
       return 1.0 * microsecond;
     case contact::Method::lanes:
-      return (plain ? 0.5 + 0.1 * square : in_plane * (3.2 + 0.24 * square)) * microsecond;
+      return (plain ? 0.5 + 0.1 * square : in_plane * (4.0 + 0.3 * square)) * microsecond;
     case contact::Method::point_methods:
       break;
   }
   if (plain) return (2.0 + 1.5 * more + 0.17 * more * more) * microsecond;
   if (!effects.second_direction) return 17.0 * both * (1.0 + 0.7 * more) * microsecond;
-  const double surface = (rough ? 1.4 : 1.0) * (effects.rate_dependence ? 1.55 : 1.0);
+  const double surface = (rough ? 1.4 : 1.0) * (effects.rate_dependence ? 0.8 : 1.0);
   return 215.0 * surface * (1.0 + 0.13 * more) * microsecond;
 }
 
@@ -206,7 +216,8 @@ double check_seconds(const SceneDescription& scene, CurveEffects effects, Size s
 
 double seconds_in_time(const SceneDescription& scene, const Size& size) {
   const double steps = is_one_frequency(scene) ? 0.0 : scene.response->n_time_points - 1;
-  return n_curves(scene) * std::max(size.points, 1.0) * point_period *
+  const double period = std::max(size.points, 1.0) * point_period;
+  return n_curves(scene) * period * (1.0 + size.points / points_of_a_step) *
          (periods_from_rest + steps * periods_of_a_step);
 }
 
@@ -256,6 +267,41 @@ double evaluations_with(const SceneDescription& scene, const CurveEffects& effec
 double integrations_with(const SceneDescription& scene, double once) {
   const auto n = static_cast<double>(members_left_out(scene).size());
   return (n > 1.0 ? n + 1.0 : n) * once;
+}
+
+/// As the search itself tells (OptimumSearch).
+bool is_short_search(const SceneDescription& scene) {
+  const HarmonicSettings& given = scene.settings.harmonics;
+  return !scene.contacts.empty() && (given.chosen() || given.highest > few_harmonics);
+}
+
+/// Of harmonics that are given, at the best value and beside it.
+double seconds_of_richer_curves(const SceneDescription& scene, const CurveEffects& effects) {
+  const Size size = size_of(scene, effects);
+  if (check_seconds(scene, effects, size) == 0.0) return 0.0;
+  return richer_curves_of_a_search *
+         (of_a_curve * evaluation_seconds(effects, size) + check_seconds(scene, effects, size));
+}
+
+/// The search for a best value, and the same with uncertain numbers multiplied.
+void add_search(const SceneDescription& scene, const CurveEffects& effects,
+                ResponseSeconds& seconds) {
+  // About: peaks alone are judged, and the curves of its error.
+  constexpr double stable_curves = 10.0;
+  const Size size = size_of(scene, effects);
+  const double stability = std::max(stability_seconds(effects, size), 0.0);
+  const double search = of_a_search * evaluation_seconds(effects, size);
+  const double judged = stable_curves * points_of_a_curve * stability;
+  if (!is_short_search(scene)) {
+    seconds.best_value =
+        (1.0 + searches_of_its_error) * search + judged + seconds_of_richer_curves(scene, effects);
+    seconds.bracket = searches_of_a_bracket * (search + judged);
+    return;
+  }
+  seconds.best_value = of_a_short_search * evaluation_seconds(effects, size) + judged;
+  Size few = size;
+  few.harmonics = few_harmonics;
+  seconds.bracket = searches_of_a_bracket * of_a_search * evaluation_seconds(effects, few);
 }
 
 }  // namespace
@@ -309,12 +355,9 @@ ResponseSeconds response_seconds(const SceneDescription& scene, const CurveEffec
       seconds.errors = n_with_rows * (rows + check * evaluations_with(scene, effects));
     }
   }
-  if (scene.response->optimum) {
-    constexpr double stable_curves =
-        10.0;  // about: peaks alone are judged, and the curves of its error
-    seconds.best_value = curves_of_a_search * of_a_curve * evaluation +
-                         stable_curves * points_of_a_curve * std::max(stability, 0.0);
-    seconds.bracket = searches_of_a_bracket * seconds.best_value;
+  if (scene.response->optimum) add_search(scene, effects, seconds);
+  for (double* stage : {&seconds.curves, &seconds.errors, &seconds.best_value, &seconds.bracket}) {
+    *stage *= machine_slowness();
   }
   return seconds;
 }

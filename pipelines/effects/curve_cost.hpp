@@ -1,6 +1,7 @@
 /// @file
 /// What curves are expected to cost, by the method of their contact points. Processor seconds of
-/// one core; medians of what scenes took (share/doc/costs.md), right to a factor of two for most.
+/// one core of this machine; medians of what scenes took (share/doc/costs.md), right to a factor of
+/// two for most.
 #pragma once
 
 #include "pipelines/description/scene_description.hpp"
@@ -42,7 +43,8 @@ struct ResponseSeconds {
 [[nodiscard]] ResponseSeconds response_seconds(const SceneDescription& scene,
                                                const CurveEffects& effects);
 
-/// A search for other solutions with every curve [s]. @param n_starts  per frequency.
+/// A search for other solutions with every curve [s], where machine_slowness() is 1: whether it is
+/// made hangs on it, which no machine decides. @param n_starts  per frequency.
 [[nodiscard]] double search_seconds(const SceneDescription& scene, const CurveEffects& effects,
                                     int n_starts);
 

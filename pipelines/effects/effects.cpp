@@ -15,6 +15,7 @@
 #include "pipelines/effects/effect_indicators.hpp"
 #include "pipelines/effects/effect_sizes.hpp"
 #include "pipelines/effects/motion_along_r.hpp"
+#include "pipelines/system/machine_speed.hpp"
 #include "pipelines/system/scene_error.hpp"
 #include "pipelines/text/effect_table.hpp"
 #include "pipelines/text/rounded.hpp"
@@ -66,7 +67,7 @@ const Costly* costly(std::string_view name) {
 /// What the curves take longer with an effect than without, where the method of the points tells.
 std::optional<double> cost_of(std::string_view name, const EffectFacts& facts) {
   if (!facts.scene.response || !facts.has_contact || in_time(facts.scene)) return std::nullopt;
-  if (name == "coexistence") return seconds_of_search(facts);
+  if (name == "coexistence") return machine_slowness() * seconds_of_search(facts);
   if (name == "separation") return 0.0;  // the equations are those of contact that cannot open
   CurveEffects with = curve_effects(facts.scene, facts.both_directions);
   const double all = response_seconds(facts.scene, with).total();

@@ -160,7 +160,13 @@ std::chrono::seconds Progress::plain_interval() const {
 double Progress::seconds_left(Clock::time_point now) const {
   const double elapsed = Seconds(now - part_begin_).count();
   const bool is_told = fraction_ > first_guess && fraction_ < 1.0;
-  return is_told ? elapsed * (1.0 - fraction_) / fraction_ : expected_ - elapsed;
+  if (!is_told) return expected_ - elapsed;
+  const double at_this_pace = elapsed * (1.0 - fraction_) / fraction_;
+  if (!(expected_ > 0.0 && elapsed > 0.0)) return at_this_pace;
+  // Fractions count frequency, and points crowd about resonances: the pace is believed as far as
+  // it has come, the forecast beyond.
+  const double as_expected = expected_ * (1.0 - fraction_);
+  return as_expected * std::pow(at_this_pace / as_expected, fraction_);
 }
 
 std::string Progress::time_text(Clock::time_point now) const {

@@ -16,6 +16,7 @@
 #include "pipelines/effects/effect_indicators.hpp"
 #include "pipelines/structure/extrapolated_modes.hpp"
 #include "pipelines/structure/solver_time.hpp"
+#include "pipelines/system/machine_speed.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -24,6 +25,12 @@ ResponseSeconds seconds_of(const ReducedModel& model, const SceneDescription& sc
   CurveEffects effects = curve_effects(scene, model.effects.second_direction);
   effects.linear_curves = n_linear_curves(model, scene);
   return response_seconds(scene, effects);
+}
+
+/// Cores that share the curves.
+double cores_in_use(const SceneDescription& scene, int jobs) {
+  const auto n_curves = static_cast<double>(curve_requests(scene).size());
+  return std::clamp(static_cast<double>(jobs), 1.0, std::max(1.0, n_curves));
 }
 
 }  // namespace
@@ -54,8 +61,12 @@ double mesh_seconds(const SceneDescription& scene) {
   const auto* blade = std::get_if<BladeModel>(&scene.model);
   if (blade == nullptr) return 0.0;
   constexpr double freedoms_in_cube = 32.0;  // of an edge: 69 000 of 3 mm in the default blade
-  return per_meshed_freedom * freedoms_in_cube * blade_volume(blade->geometry) /
-         std::pow(blade->sizes.element_size, 3.0);
+  return machine_slowness() * per_meshed_freedom * freedoms_in_cube *
+         blade_volume(blade->geometry) / std::pow(blade->sizes.element_size, 3.0);
+}
+
+double curves_seconds(const ReducedModel& model, const SceneDescription& scene, int jobs) {
+  return seconds_of(model, scene).curves / cores_in_use(scene, jobs);
 }
 
 double accuracy_seconds(const ReducedModel& model, const SceneDescription& scene,
@@ -69,9 +80,7 @@ double accuracy_seconds(const ReducedModel& model, const SceneDescription& scene
     if (balanced) spent += one.curve.seconds;
   }
   const double at_least = scene.contacts.empty() ? 0.0 : share_of_a_curve * spent;
-  const auto n_curves = static_cast<double>(curve_requests(scene).size());
-  const double beside = std::clamp(static_cast<double>(jobs), 1.0, std::max(1.0, n_curves));
-  return std::max(seconds_of(model, scene).errors, at_least) / beside +
+  return std::max(seconds_of(model, scene).errors, at_least) / cores_in_use(scene, jobs) +
          coarser_meshes_seconds(degrees_of_freedom, scene) +
          modes_again_seconds(degrees_of_freedom, scene, &model);
 }
@@ -79,6 +88,22 @@ double accuracy_seconds(const ReducedModel& model, const SceneDescription& scene
 double optimum_seconds(const ReducedModel& model, const SceneDescription& scene, bool bracket) {
   const ResponseSeconds seconds = seconds_of(model, scene);
   return seconds.best_value + (bracket ? seconds.bracket : 0.0);
+}
+
+PictureSeconds picture_seconds(const SceneDescription& scene) {
+  // Of the coarse blade with one and nine harmonics, one to eight curves; a plot of two files.
+  constexpr double of_start = 1.3;
+  constexpr double of_a_plot = 0.4;
+  constexpr double of_a_map = 0.08;
+  constexpr double of_a_harmonic = 0.02;
+  if (!scene.response) return {};
+  const std::vector<CurveRequest> curves = curve_requests(scene);
+  const auto n_loaded = static_cast<double>(std::ranges::count_if(
+      curves, [](const auto& one) { return std::holds_alternative<double>(one.load); }));
+  const double n_maps = n_loaded * static_cast<double>(scene.response->maps.size());
+  const double harmonics = scene.settings.harmonics.highest;
+  return {.maps = machine_slowness() * n_maps * (of_a_map + of_a_harmonic * harmonics),
+          .plots = machine_slowness() * (of_start + of_a_plot * n_maps)};
 }
 
 }  // namespace microslip::pipelines

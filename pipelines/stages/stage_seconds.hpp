@@ -24,6 +24,10 @@ namespace microslip::pipelines {
 /// Of the mesh alone, before there is one; 0: not known.
 [[nodiscard]] double mesh_seconds(const SceneDescription& scene);
 
+/// Of the stage `curves`, by the clock of so many cores.
+[[nodiscard]] double curves_seconds(const ReducedModel& model, const SceneDescription& scene,
+                                    int jobs);
+
 /// Of the stage `accuracy`, errors of curves.
 /// @param curves  as they were solved: where they took long, with many harmonics, so do their
 ///                errors.
@@ -35,5 +39,12 @@ namespace microslip::pipelines {
 /// Of the stage `optimum`. @param bracket  whether its bracket is solved for.
 [[nodiscard]] double optimum_seconds(const ReducedModel& model, const SceneDescription& scene,
                                      bool bracket);
+
+/// What is drawn after the curves.
+struct PictureSeconds {
+  double maps = 0.0;
+  double plots = 0.0;
+};
+[[nodiscard]] PictureSeconds picture_seconds(const SceneDescription& scene);
 
 }  // namespace microslip::pipelines

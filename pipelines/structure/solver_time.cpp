@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "pipelines/system/deadline.hpp"
+#include "pipelines/system/machine_speed.hpp"
 #include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {
@@ -15,7 +16,7 @@ double limits_seconds(const SceneDescription& scene) {
   constexpr double of_a_cube = 2.9e-7;  // measured at 300 and 900
   if (scene.contacts.empty() || !scene.response) return 0.0;
   const double m = scene.settings.basis.n_modes;
-  return of_a_cube * m * m * m;
+  return machine_slowness() * of_a_cube * m * m * m;
 }
 
 }  // namespace
@@ -27,16 +28,17 @@ double modes_seconds(double degrees_of_freedom, const BasisSettings& basis) {
       basis.solver == fem::SolverKind::iterative ? 5.3e-4 * n : 1.5e-5 * n + 3.1e-10 * n * n;
   // Of many modes orthogonality takes the square of their number.
   const double m = basis.n_modes;
-  return ten * std::max(1.0, m / 10.0) + 6e-9 * n * m * m;
+  return machine_slowness() * (ten * std::max(1.0, m / 10.0) + 6e-9 * n * m * m);
 }
 
 double mesh_and_modes_seconds(double degrees_of_freedom, const SceneDescription& scene) {
-  const double mesh = (element_size_of(scene) ? per_meshed_freedom : 1e-5) * degrees_of_freedom +
-                      limits_seconds(scene);
+  const double of_a_freedom = element_size_of(scene) ? per_meshed_freedom : 1e-5;
+  const double mesh =
+      machine_slowness() * of_a_freedom * degrees_of_freedom + limits_seconds(scene);
   if (given_modes(scene) != nullptr) return mesh;
   const double modes = modes_seconds(degrees_of_freedom, scene.settings.basis);
   constexpr double start = 0.5;  // of the mesher, of the libraries
-  return start + mesh + modes;
+  return machine_slowness() * start + mesh + modes;
 }
 
 double larger_elements_seconds(double degrees_of_freedom, const SceneDescription& scene) {

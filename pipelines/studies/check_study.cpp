@@ -27,7 +27,6 @@
 #include "pipelines/model/scene_warnings.hpp"
 #include "pipelines/questions/questions.hpp"
 #include "pipelines/response/response_stage.hpp"
-#include "pipelines/stages/stage_seconds.hpp"
 #include "pipelines/structure/extrapolated_modes.hpp"
 #include "pipelines/structure/memory_before_mesh.hpp"
 #include "pipelines/structure/solver_time.hpp"
@@ -49,6 +48,7 @@ constexpr double longest_solution = 2.0;        // [s] forecast, of modes that `
 /// @param model  where effects are decided, else nullptr.
 void add_curves(const SceneDescription& scene, const ReducedModel* model, Forecast& forecast) {
   if (!scene.response) return;
+  forecast.pictures = picture_seconds(scene);
   using enum Discretisation::Choice;
   const Discretisation::Choice along_r = scene.settings.second_direction;
   const bool is_on = model != nullptr ? model->effects.second_direction : along_r == on;
@@ -112,6 +112,9 @@ void describe(const Forecast& forecast, bool has_curves, std::ostream& out) {
     }
   }
   if (has_curves) parts.push_back(text_of(forecast.response));
+  const auto& [maps, plots] = forecast.pictures;
+  if (maps > 0.0) parts.push_back(fmt::format("maps {:.2g} s", maps));
+  if (plots > 0.0) parts.push_back(fmt::format("plots {:.2g} s", plots));
   if (forecast.response_along_r) {
     parts.push_back("if friction along r is called for " + text_of(*forecast.response_along_r));
   }

@@ -11,6 +11,7 @@
 #include "pipelines/description/scene_description.hpp"
 #include "pipelines/effects/curve_cost.hpp"
 #include "pipelines/effects/effect_record.hpp"
+#include "pipelines/stages/stage_seconds.hpp"
 #include "pipelines/structure/solver_memory.hpp"
 
 namespace microslip::pipelines {
@@ -22,6 +23,7 @@ struct Forecast {
   ResponseSeconds response;         ///< of the curves, their errors, a best value
   std::optional<ResponseSeconds>
       response_along_r;  ///< where it is not known yet whether friction along r is called for
+  PictureSeconds pictures;
   double memory_gb = 0.0;
   std::optional<SolverMemory> solver_memory;  ///< where modes are solved for
 };

@@ -130,6 +130,28 @@ TEST(Progress, ACurveWhosePointsTakeLongTellsWhatIsLeft) {
       << out.str();
 }
 
+// Fractions count frequency: before a resonance, where points are few, the pace alone would tell
+// 1 s, beyond it too much.
+TEST(Progress, ThePaceIsBelievedAsFarAsItHasCome) {
+  const auto left_after = [](double fraction) {
+    std::ostringstream out;
+    Progress progress(out, true, Verbosity::normal);
+    progress.stage("curves");
+    progress.expect(40.0);
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    progress.point("preload_6", {}, fraction);
+    progress.finish();
+    const std::regex left(R"(  (\d+) s left)");
+    std::smatch found;
+    const std::string text = out.str();
+    return std::regex_search(text, found, left) ? std::stoi(found[1]) : -1;
+  };
+  const int early = left_after(0.1);
+  EXPECT_GE(early, 20);
+  EXPECT_LE(early, 36);
+  EXPECT_LE(left_after(0.9), 1);
+}
+
 TEST(Progress, HistoryGrowsWithEveryPoint) {
   const synthetic::Folder folder("progress_history");
   std::ostringstream out;

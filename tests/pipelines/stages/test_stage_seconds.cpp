@@ -37,5 +37,20 @@ TEST(StageSeconds, MotionsInTimeAndLimitsHaveNoSuchErrors) {
                    accuracy_seconds({}, scene, {}, 6000.0, 1));
 }
 
+// Linear limits have no maps.
+TEST(StageSeconds, PicturesFollowTheCurvesAndMapsAskedFor) {
+  const auto of = [](const std::vector<std::string>& overrides) {
+    return picture_seconds(read_scene(MICROSLIP_SCENES "/blade_to_ground.toml", overrides));
+  };
+  const PictureSeconds two = of({"response.preload=[\"free\", 100, 200, \"stuck\"]"});
+  const PictureSeconds four = of({"response.preload=[100, 200, 300, 400]"});
+  const PictureSeconds none = of({"response.maps=[]"});
+  EXPECT_GT(two.maps, 0.0);
+  EXPECT_DOUBLE_EQ(four.maps, 2.0 * two.maps);
+  EXPECT_GT(four.plots, two.plots);
+  EXPECT_EQ(none.maps, 0.0);
+  EXPECT_GT(none.plots, 0.0);
+}
+
 }  // namespace
 }  // namespace microslip::pipelines::test_stage_seconds
