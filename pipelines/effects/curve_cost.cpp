@@ -25,7 +25,7 @@ constexpr double of_many_events = 3.2;
 constexpr double of_one_point_that_opens = 4.0;
 // An effect put back at the peaks of a curve: of a mesh, with a peak or two; of numbers.
 constexpr double of_an_effect_on_a_mesh = 60.0;
-constexpr double of_an_effect = 190.0;
+constexpr double of_an_effect = 350.0;
 constexpr double of_one_frequency = 25.0;
 constexpr double of_a_check = 30.0;  // of the peak, with eight harmonics more than were given
 constexpr double of_a_start = 20.0;

@@ -8,9 +8,9 @@
 
 namespace microslip::pipelines {
 
-/// Seconds of one core of this machine, right within a factor of two. Directly: with the count that none is missed;
-/// the factorisations of a three-dimensional mesh grow as n². Iteratively: as n, for the steps
-/// hardly grow with the mesh.
+/// Seconds of one core of this machine, right within a factor of two. Directly: with the count that
+/// none is missed; the factorisations of a three-dimensional mesh grow as n². Iteratively: as n,
+/// for the steps hardly grow with the mesh.
 [[nodiscard]] double modes_seconds(double degrees_of_freedom, const BasisSettings& basis);
 
 /// Of a mesh that is made here, of one freedom, where machine_slowness() is 1.

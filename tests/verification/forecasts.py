@@ -1,6 +1,6 @@
 """What `check` forecasts against what `run` takes, in processor seconds: sets of effects from one to all.
 
-The model is fitted on one machine, where it is right to a factor of two; another may be twice as fast or slow, so that four is
+The model is right to a factor of two; what other programs leave of the machine changes between forecast and run, so that four is
 asked for. Below half a second, of start and files, nothing is told.
 
 usage: forecasts.py MICROSLIP SOURCE_FOLDER RUN_FOLDER          (MICROSLIP_CAMPAIGNS=whole: every scene, minutes)
