@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -225,11 +226,16 @@ class Search {
     return balance_->unknowns(q);
   }
 
-  [[nodiscard]] static double factor(const Eigen::VectorXd& x, double size,
-                                     const std::vector<Eigen::VectorXd>& known) {
-    double product = 1.0;
+  /// m ‖R‖; infinite where a step has ended in a known solution to the last bit, whose m has no
+  /// value.
+  [[nodiscard]] static double merit(const Eigen::VectorXd& x, double size,
+                                    const std::vector<Eigen::VectorXd>& known,
+                                    const Eigen::VectorXd& residual) {
+    double product = residual.norm();
     for (const Eigen::VectorXd& other : known) {
-      product *= size * size / (x - other).squaredNorm() + 1.0;
+      const double square = (x - other).squaredNorm();
+      if (square == 0.0) return std::numeric_limits<double>::infinity();
+      product *= size * size / square + 1.0;
     }
     return product;
   }
@@ -270,7 +276,7 @@ class Search {
     count(0, 1);
     std::vector<double> merits;
     for (int i = 0; i < most_iterations; ++i) {
-      merits.push_back(factor(x, size, known) * residual.norm());
+      merits.push_back(merit(x, size, known, residual));
       if (residual.norm() <= 1e-8 * scale) return x;
       if (is_stalled(merits)) return std::nullopt;
       const BalanceEvaluation at = balance_->evaluate(x, frequency);
@@ -286,7 +292,7 @@ class Search {
         residual = balance_->residual(next, frequency).residual;
         count(0, 1);
         // The last try is taken even if it rises: between regimes no length may do.
-        if (factor(next, size, known) * residual.norm() < merits.back() || k == most_halvings) {
+        if (merit(next, size, known, residual) < merits.back() || k == most_halvings) {
           x = next;
           break;
         }
