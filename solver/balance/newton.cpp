@@ -15,9 +15,8 @@ namespace {
 constexpr int max_halvings = 7;
 constexpr int max_polish = 4;
 constexpr double polished_below = 5e-11;  // a tolerance above asks for no more than it says
-// Below this nothing is gained: the residual is a sum of some ten thousand rounded terms at most.
-constexpr double rounding = 1e-16;
-constexpr double rounding_level = 1e-14;  // a shorter step cannot help any more
+// Below this nothing is gained: what is left of the residual is rounding of its sums.
+constexpr double rounding_level = 1e-14;
 
 class Iteration {
  public:
@@ -100,7 +99,7 @@ class Iteration {
   /// Goes on while the residual falls; near a kink a shorter step may do what the whole one does
   /// not.
   void polish() {
-    for (int i = 0; i < max_polish && now_.residual > rounding; ++i) {
+    for (int i = 0; i < max_polish && now_.residual > rounding_level; ++i) {
       const BranchVector direction = newton_step();
       if (!direction.x.allFinite() || !std::isfinite(direction.parameter)) return;
       const double before = now_.residual;

@@ -119,6 +119,18 @@ TEST(Newton, PolishesToRounding) {
   EXPECT_EQ(result.point.parameter, 3.0);
 }
 
+// From 1.5 the residual of x² = 2 is 6e-3, 6e-6 and 5e-12, then rounding.
+TEST(Newton, DoesNotPolishRounding) {
+  const ParametricSystem system = [](const Eigen::VectorXd& x, double) {
+    return scalar(x[0] * x[0] - 2.0 + 3e-16, 2.0 * x[0], 0.0);
+  };
+  const auto result = solve_newton(system, at(1.5, 0.0), Scaling{}, {.tolerance = 1e-13});
+  ASSERT_TRUE(result.converged);
+  EXPECT_NEAR(result.point.x[0], std::sqrt(2.0), 1e-15);
+  EXPECT_GT(result.residual, 0.0);
+  EXPECT_EQ(result.evaluations, result.iterations + 1);
+}
+
 TEST(Newton, AsksNoResidualBelowItsRounding) {
   // A residual that never falls below 1e-8, with the tolerance at 1e-11.
   const ParametricSystem system = [](const Eigen::VectorXd& x, double) {
