@@ -39,15 +39,15 @@ set(uses_fem_petsc elements)
 set(uses_fem_assembly elements petsc)
 set(uses_fem_eigen elements petsc assembly)
 
-set(drawers_contact numerics surface point closed_form line plane patch force lanes sampled map transient
+set(drawers_contact numerics surface point lanes closed_form line plane patch force sampled map transient
   choice)
 set(uses_contact_point numerics surface)
+set(uses_contact_lanes numerics)
 set(uses_contact_closed_form surface point)
 set(uses_contact_line numerics surface point)
-set(uses_contact_plane numerics surface point)
+set(uses_contact_plane numerics surface point lanes)
 set(uses_contact_patch numerics surface point)
 set(uses_contact_force numerics surface point closed_form patch)
-set(uses_contact_lanes numerics)
 set(uses_contact_sampled numerics surface point force lanes)
 set(uses_contact_map numerics surface point closed_form patch)
 set(uses_contact_transient surface plane patch)

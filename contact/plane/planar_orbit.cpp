@@ -133,6 +133,7 @@ class Walk {
         time_ == interval_->begin ? interval_->grid.front() : motion_.at(time_);
     open_piece(ContactState::slip, entry_, now);
     entry_ = PlanarEntry::continued;
+    here_ = now;
     while (slipping_ && time_ < interval_->end && left_ > 0.0) {
       left_ -= 1.0;
       SlipStep step = longest_step();
@@ -144,6 +145,7 @@ class Walk {
       }
       time_ = step.end() >= interval_->end ? interval_->end : step.end();
       slider_ = step.end_slider();
+      here_ = step.instant.back();
       orbit_.pieces.back().steps.push_back(step);
     }
     orbit_.pieces.back().end = time_;
@@ -187,7 +189,7 @@ class Walk {
   /// Whether no two neighbouring stages differ by more than 60 degrees: else slip may have ended
   /// and begun again between them.
   [[nodiscard]] bool turns_slowly(const SlipStep& step) const {
-    const Vector2d begin = motion_.at(step.begin).force(step.slider);
+    const Vector2d begin = here_.force(step.slider);
     constexpr double has_direction = 1e-11;  // below it rounding turns the force
     const bool touches = time_ == interval_->begin && begin.norm() <= has_direction;
     const Vector2d along = touches ? heading_ : begin;
@@ -265,6 +267,7 @@ class Walk {
   PlanarOrbit& orbit_;
   const PlanarInterval* interval_ = nullptr;
   double time_ = 0.0;
+  PlanarInstant here_;  // where the next step of slip begins
   Vector2d slider_ = Vector2d::Zero();
   Vector2d heading_ =
       Vector2d::Zero();  // direction of slip, any length, where contact begins in slip

@@ -26,9 +26,8 @@
 #include <array>
 
 #include <Eigen/Core>
-#include <Eigen/LU>
-
 #include "contact/plane/planar_motion.hpp"
+#include "contact/plane/stage_factor.hpp"
 
 namespace microslip::contact {
 
@@ -63,8 +62,8 @@ struct SlipStep {
   Eigen::Matrix<double, 2, n_stages> direction;  ///< e(α_i)
   Eigen::Matrix<double, 2, n_stages> stage;      ///< s_i
   Eigen::Matrix<double, 2, n_stages> travel;     ///< length · s'(c_i), along e
-  Eigen::PartialPivLU<Eigen::Matrix<double, n_stages, n_stages>> factor;  ///< of ∂(2)/∂α
-  double top_term = 0.0;  ///< size of the highest polynomial in f / F₀
+  StageFactor<n_stages> factor;                  ///< of ∂(2)/∂α
+  double top_term = 0.0;                         ///< size of the highest polynomial in f / F₀
   /// What a rule of order nine leaves of a coefficient of friction whose polynomials go on falling
   /// as the last two, in f / F₀: much where a step ends in a layer of the rate.
   /// 0 for a constant coefficient.

@@ -39,6 +39,7 @@ OrbitVariation::OrbitVariation(const PlanarMotion& motion, Columns columns)
   stage_.setZero(2 * n_stages, n_parameters_);
   stage_radius_.setZero(n_stages, n_parameters_);
   stage_ratio_.setZero(n_stages, n_parameters_);
+  right_.setZero(n_stages, n_columns());
   turn_.setZero(n_stages, n_columns());
   set_free_slider();
 }
@@ -79,14 +80,11 @@ void OrbitVariation::carry(const PlanarOrbit& orbit) {
 
 void OrbitVariation::carry_and_integrate(const PlanarOrbit& orbit) {
   integrates_ = true;
-  for (Eigen::MatrixXd& force : force_) {
-    force.setZero(2 * motion_.n_harmonics() + 1, n_columns());
-  }
+  sum_.start(2 * motion_.n_harmonics() + 1, 2 * n_columns());
   pass(orbit);
-  for (Eigen::MatrixXd& force : force_) {
-    force *= motion_.force_scale() / std::numbers::pi;
-    force.row(0) *= 0.5;
-  }
+  BasisProduct::Rows sum = sum_.sum() * (motion_.force_scale() / std::numbers::pi);
+  sum.row(0) *= 0.5;
+  force_ = {sum.leftCols(n_columns()), sum.rightCols(n_columns())};
 }
 
 void OrbitVariation::pass(const PlanarOrbit& orbit) {
@@ -110,21 +108,33 @@ void OrbitVariation::pass(const PlanarOrbit& orbit) {
 void OrbitVariation::set_parameters(const PlanarInstant& now) {
   trigonometric_basis(motion_.n_harmonics(), now.phase, basis_);
   if (n_parameters_ == 0) return;
-  basis_rate(basis_, basis_rate_);
   const Vector2d x = motion_.active() / motion_.length_scale();
-  const double omega = motion_.frequency();
+  for (Index k = 1; k < basis_.size(); ++k) {
+    position_(0, 3 * k) = x[0] * basis_[k];
+    position_(1, 3 * k + 2) = x[1] * basis_[k];
+  }
   for (Index k = 0; k < basis_.size(); ++k) {
-    position_(0, 3 * k) = k > 0 ? x[0] * basis_[k] : 0.0;
-    position_(1, 3 * k + 2) = k > 0 ? x[1] * basis_[k] : 0.0;
-    radius_[3 * k] = now.radius_by_rate * omega * now.heading[0] * basis_rate_[k];
     radius_[3 * k + 1] = now.radius_by_approach * basis_[k];
-    radius_[3 * k + 2] = now.radius_by_rate * omega * now.heading[1] * basis_rate_[k];
+  }
+  if (motion_.law().is_rate_dependent()) set_rate_parameters(now);
+  reach_.row(0) = radius_ / now.stiffness[0];
+  reach_.row(1) = radius_ / now.stiffness[1];
+  if (motion_.law().is_smooth()) return;
+  for (Index k = 0; k < basis_.size(); ++k) {
     stiffness_[3 * k + 1] = now.stiffness_by_approach[1] * basis_[k];
     ratio_[3 * k + 1] = now.surface.stiffness_ratio_by_approach * basis_[k];
   }
-  radius_[n_parameters_ - 1] = now.radius_by_rate * now.speed;
-  reach_ = now.stiffness.cwiseInverse() * radius_;
   reach_.row(1) -= (now.reach()[1] / now.stiffness[1]) * stiffness_;
+}
+
+void OrbitVariation::set_rate_parameters(const PlanarInstant& now) {
+  basis_rate(basis_, basis_rate_);
+  const double by_rate = now.radius_by_rate * motion_.frequency();
+  for (Index k = 0; k < basis_.size(); ++k) {
+    radius_[3 * k] = by_rate * now.heading[0] * basis_rate_[k];
+    radius_[3 * k + 2] = by_rate * now.heading[1] * basis_rate_[k];
+  }
+  radius_[n_parameters_ - 1] = now.radius_by_rate * now.speed;
 }
 
 void OrbitVariation::touch_down(const PlanarPiece& piece) {
@@ -184,43 +194,47 @@ void OrbitVariation::begin_slip(const PlanarPiece& piece) {
 
 void OrbitVariation::step(const SlipStep& slip) {
   const RadauNodes& rule = radau_nodes();
+  const Index n = n_parameters_;
   for (int j = 0; j < n_stages; ++j) {
-    if (n_parameters_ == 0) break;
+    const Vector2d e = slip.direction.col(j);
     set_parameters(slip.instant[static_cast<std::size_t>(j)]);
-    stage_.middleRows<2>(2 * j) = position_ - Vector2d(slip.direction.col(j)).asDiagonal() * reach_;
+    stage_basis_[static_cast<std::size_t>(j)] = basis_;
+    stage_.row(2 * j) = position_.row(0) - e[0] * reach_.row(0);
+    stage_.row(2 * j + 1) = position_.row(1) - e[1] * reach_.row(1);
     stage_radius_.row(j) = radius_;
     stage_ratio_.row(j) = ratio_;
   }
   for (int i = 0; i < n_stages; ++i) {
     const Vector2d normal = across(slip.direction.col(i));
-    turn_.row(i).noalias() = -rule.derivative(i, 0) * (normal.transpose() * slider_);
-    for (int j = 0; j < n_stages && n_parameters_ > 0; ++j) {
-      turn_.row(i).leftCols(n_parameters_).noalias() -=
-          rule.derivative(i, j + 1) * (normal.transpose() * stage_.middleRows<2>(2 * j));
+    const Vector2d begin = -rule.derivative(i, 0) * normal;
+    right_.row(i) = begin[0] * slider_.row(0) + begin[1] * slider_.row(1);
+    for (int j = 0; j < n_stages; ++j) {
+      const Vector2d moved = -rule.derivative(i, j + 1) * normal;
+      right_.row(i).head(n) += moved[0] * stage_.row(2 * j) + moved[1] * stage_.row(2 * j + 1);
     }
   }
-  turn_ = slip.factor.solve(turn_).eval();
-  for (int i = 0; i < n_stages && integrates_; ++i) {
-    const PlanarInstant& now = slip.instant[static_cast<std::size_t>(i)];
-    trigonometric_basis(motion_.n_harmonics(), now.phase, basis_);
-    radius_ = stage_radius_.row(i);
-    ratio_ = stage_ratio_.row(i);
-    integrate_slip(now, slip.direction.col(i), turn_.row(i),
-                   slip.length * rule.weight[static_cast<std::size_t>(i)]);
-  }
+  slip.factor.solve(right_, turn_);
+  for (int i = 0; i < n_stages && integrates_; ++i) integrate_slip(slip, i);
   const int last = n_stages - 1;
   const Vector2d e = slip.direction.col(last);
-  slider_.noalias() = -slip.instant[last].reach().cwiseProduct(across(e)) * turn_.row(last);
-  slider_.leftCols(n_parameters_) += stage_.bottomRows<2>();
+  const Vector2d turned = -slip.instant[last].reach().cwiseProduct(across(e));
+  slider_.row(0) = turned[0] * turn_.row(last);
+  slider_.row(1) = turned[1] * turn_.row(last);
+  slider_.leftCols(n) += stage_.bottomRows<2>();
 }
 
-void OrbitVariation::integrate_slip(const PlanarInstant& now, const Vector2d& direction,
-                                    const Eigen::RowVectorXd& turn, double weight) {
-  const double ratio = now.surface.stiffness_ratio;
-  force_now_.noalias() = (ratio * now.limit * across(direction)) * turn;
-  force_now_.leftCols(n_parameters_).noalias() +=
-      direction * (ratio * radius_ + now.limit * ratio_);
-  add_force(weight);
+void OrbitVariation::integrate_slip(const SlipStep& step, int stage) {
+  const auto i = static_cast<std::size_t>(stage);
+  const PlanarInstant& now = step.instant[i];
+  const Vector2d e = step.direction.col(stage);
+  const Vector2d normal = (now.surface.stiffness_ratio * now.limit) * across(e);
+  auto row = sum_.add(stage_basis_[i], step.length * radau_nodes().weight[i]);
+  for (int k = 0; k < 2; ++k) {
+    row.segment(k * n_columns(), n_columns()) = normal[k] * turn_.row(stage);
+    row.segment(k * n_columns(), n_parameters_) +=
+        (e[k] * now.surface.stiffness_ratio) * stage_radius_.row(stage) +
+        (e[k] * now.limit) * stage_ratio_.row(stage);
+  }
 }
 
 void OrbitVariation::integrate_lost_stick(const PlanarPiece& piece) {
@@ -259,9 +273,9 @@ void OrbitVariation::integrate_stick(const PlanarPiece& piece) {
 }
 
 void OrbitVariation::add_force(double weight) {
-  for (Index i = 0; i < 2; ++i) {
-    force_[i].noalias() += (weight * basis_) * force_now_.row(i);
-  }
+  auto row = sum_.add(basis_, weight);
+  row.head(n_columns()) = force_now_.row(0);
+  row.tail(n_columns()) = force_now_.row(1);
 }
 
 }  // namespace microslip::contact

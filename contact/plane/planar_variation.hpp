@@ -16,9 +16,11 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 #include <Eigen/Core>
 
+#include "contact/plane/basis_product.hpp"
 #include "contact/plane/planar_corner.hpp"
 #include "contact/plane/planar_orbit.hpp"
 
@@ -29,6 +31,9 @@ namespace microslip::contact {
 class OrbitVariation {
  public:
   enum class Columns { slider_only, all };
+  /// Columns lie side by side: sums run along them.
+  template <int rows>
+  using Rows = Eigen::Matrix<double, rows, Eigen::Dynamic, Eigen::RowMajor>;
 
   OrbitVariation(const PlanarMotion& motion, Columns columns);
 
@@ -47,15 +52,16 @@ class OrbitVariation {
   void carry_and_integrate(const PlanarOrbit& orbit);
 
   /// δs / L₀, 2 × n_columns.
-  [[nodiscard]] const Eigen::Matrix2Xd& slider() const { return slider_; }
+  [[nodiscard]] const Rows<2>& slider() const { return slider_; }
   /// δ of the coefficients of f_p or f_r, (2H+1) × n_columns [Pa per unit of the parameter].
-  [[nodiscard]] const Eigen::MatrixXd& force(Eigen::Index direction) const {
+  [[nodiscard]] const BasisProduct::Rows& force(std::size_t direction) const {
     return force_[direction];
   }
 
  private:
   void pass(const PlanarOrbit& orbit);
   void set_parameters(const PlanarInstant& now);
+  void set_rate_parameters(const PlanarInstant& now);
   void touch_down(const PlanarPiece& piece);
   /// Where slip stops because x' = 0.
   void stop_at_turn(const SlipStep& slip);
@@ -65,8 +71,9 @@ class OrbitVariation {
   /// Of friction below rounding: nothing, but where the motion turns back the force jumps by 2 μn
   /// e, and the jump moves by δθ = −e·δx'/|x''|.
   void integrate_lost_stick(const PlanarPiece& piece);
-  void integrate_slip(const PlanarInstant& now, const Eigen::Vector2d& direction,
-                      const Eigen::RowVectorXd& turn, double weight);
+  /// @param stage  of a step whose turn_ is known.
+  void integrate_slip(const SlipStep& step, int stage);
+  /// Adds force_now_.
   void add_force(double weight);
 
   const PlanarMotion& motion_;
@@ -74,18 +81,21 @@ class OrbitVariation {
   bool integrates_ = false;
   Eigen::VectorXd basis_;
   Eigen::VectorXd basis_rate_;
-  Eigen::Matrix2Xd position_;     // δx / L₀, 2 × n_parameters
+  Rows<2> position_;              // δx / L₀, 2 × n_parameters
   Eigen::RowVectorXd radius_;     // δr / F₀
   Eigen::RowVectorXd stiffness_;  // δK along r; that along p is constant
-  Eigen::Matrix2Xd reach_;        // δ(r/K) / L₀
+  Rows<2> reach_;                 // δ(r/K) / L₀
   Eigen::RowVectorXd ratio_;      // δg
-  Eigen::Matrix2Xd slider_;
-  Eigen::Matrix2Xd force_now_;  // δf / F₀
-  Eigen::Matrix<double, 2 * n_stages, Eigen::Dynamic> stage_;
-  Eigen::Matrix<double, n_stages, Eigen::Dynamic> turn_;
-  Eigen::Matrix<double, n_stages, Eigen::Dynamic> stage_radius_;
-  Eigen::Matrix<double, n_stages, Eigen::Dynamic> stage_ratio_;
-  std::array<Eigen::MatrixXd, 2> force_;
+  Rows<2> slider_;
+  Rows<2> force_now_;  // δf / F₀
+  std::array<Eigen::VectorXd, n_stages> stage_basis_;
+  Rows<2 * n_stages> stage_;
+  Rows<n_stages> right_;  // of the linearised collocation
+  Rows<n_stages> turn_;
+  Rows<n_stages> stage_radius_;
+  Rows<n_stages> stage_ratio_;
+  BasisProduct sum_;  // of both directions, one after the other
+  std::array<BasisProduct::Rows, 2> force_;
 };
 
 }  // namespace microslip::contact
