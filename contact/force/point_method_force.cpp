@@ -55,6 +55,16 @@ ForceAndJacobian PointMethodForce::awake_force(double frequency, const Asked& as
   return sum.take();
 }
 
+void PointMethodForce::find_states(double frequency, PointwiseWork& work) const {
+  Harmonics at;
+  PointTraction traction;
+  for (const Eigen::Index i : work.sleep.awake()) {
+    work.motion.copy(i, at);
+    methods_[static_cast<std::size_t>(i)]->states(at, frequency, traction);
+    keep(i, {traction.regime, traction.period}, work);
+  }
+}
+
 /// Harmonics that the motion does not have: the force alone.
 ForceAndJacobian PointMethodForce::wider_force(double frequency, int n_harmonics,
                                                const PointwiseWork& work) const {

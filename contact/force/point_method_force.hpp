@@ -32,6 +32,7 @@ class PointMethodForce final : public PointwiseForce {
   /// Points cost what all harmonics of the motion do, their sum over the patch what the rows do.
   [[nodiscard]] ForceAndJacobian awake_force(double frequency, const Asked& asked,
                                              PointwiseWork& work) const override;
+  void find_states(double frequency, PointwiseWork& work) const override;
   [[nodiscard]] ForceAndJacobian wider_force(double frequency, int n_harmonics,
                                              const PointwiseWork& work) const;
   void add_cycles(std::span<const Eigen::Index> points, double frequency, PointwiseWork& work,

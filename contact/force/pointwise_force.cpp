@@ -111,7 +111,12 @@ void PointwiseForce::states(const Harmonics& q, double frequency, ContactStates&
   const bool known = work.kept_q && frequency == work.kept_frequency &&
                      q.rows().rows() == work.kept_q->rows().rows() &&
                      q.vector() == work.kept_q->vector();
-  if (!known) static_cast<void>(evaluated(q, frequency, {}, work));
+  if (!known) {
+    look_at(q, frequency, work);
+    work.kept_q.reset();
+    keep_sleeping(work.sleep, work.cycles);
+    find_states(frequency, work);
+  }
   const double area = points_.weights.sum();
   result.clear();
   for (std::size_t i = 0; i < work.cycles.size(); ++i) {

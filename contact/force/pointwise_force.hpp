@@ -29,7 +29,8 @@ class PointwiseForce : public ModalForce {
   /// rounding of all three; |x| and |x'| the sums of amplitudes, modes apart.
   [[nodiscard]] double work_error(const Harmonics& q, double frequency,
                                   Workspace& work) const final;
-  /// At another motion than the last one: costs its evaluation, without derivatives by the modes.
+  /// At another motion than the last one: costs its evaluation, without derivatives by the modes,
+  /// or less where states need less.
   void states(const Harmonics& q, double frequency, ContactStates& result,
               Workspace& work) const final;
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const final;
@@ -75,6 +76,10 @@ class PointwiseForce : public ModalForce {
   /// @param work  of this force, as workspace() makes them; here and below.
   [[nodiscard]] virtual ForceAndJacobian awake_force(double frequency, const Asked& asked,
                                                      PointwiseWork& work) const = 0;
+  /// Keeps what the awake points do under the motion at work, as close as states() needs it.
+  virtual void find_states(double frequency, PointwiseWork& work) const {
+    static_cast<void>(awake_force(frequency, {}, work));
+  }
   /// Cycles of these points under the motion at work.
   virtual void add_cycles(std::span<const Eigen::Index> points, double frequency,
                           PointwiseWork& work, ReportSum& sum) const = 0;

@@ -100,15 +100,19 @@ void add_free_slip(const PlanarMotion& motion, const Intervals& intervals, Point
   }
 }
 
+void set_states(const SteadyOrbit& steady, PointTraction& result) {
+  result.regime = steady.regime;
+  for (const PlanarPiece& piece : steady.orbit.pieces) {
+    result.period.set(piece.state, piece.begin, piece.end - piece.begin);
+  }
+}
+
 /// Force and states of a cycle, without derivatives.
 SteadyOrbit found(const PlanarMotion& motion, const Intervals& intervals, int n_harmonics,
                   double tolerance, PointTraction& result) {
   const OrbitOptions options{tolerance_of(motion, tolerance), static_cast<double>(n_harmonics)};
   SteadyOrbit steady = cycle_of(motion, intervals, options);
-  result.regime = steady.regime;
-  for (const PlanarPiece& piece : steady.orbit.pieces) {
-    result.period.set(piece.state, piece.begin, piece.end - piece.begin);
-  }
+  set_states(steady, result);
   result.defect = defect_of(motion, steady, options.tolerance);
   result.force = planar_force(motion, intervals, steady.orbit, n_harmonics);
   return steady;
@@ -129,6 +133,15 @@ void PlaneEvents::traction_alone(const Harmonics& motion, double frequency,
   const PlanarMotion planar(law_, motion, frequency);
   static_cast<void>(
       found(planar, planar_intervals(planar), motion.n_harmonics(), tolerance_, result));
+}
+
+void PlaneEvents::states(const Harmonics& motion, double frequency, PointTraction& result) const {
+  check_motion(motion);
+  const PlanarMotion planar(law_, motion, frequency);
+  const double tolerance = std::max(tolerance_, states_tolerance);
+  const OrbitOptions options{tolerance_of(planar, tolerance),
+                             static_cast<double>(motion.n_harmonics())};
+  set_states(cycle_of(planar, planar_intervals(planar), options), result);
 }
 
 void PlaneEvents::traction(const Harmonics& motion, double frequency, PointTraction& result) const {

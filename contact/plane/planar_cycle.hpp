@@ -43,6 +43,7 @@ class PlaneEvents final : public PointMethod {
   void traction(const Harmonics& motion, double frequency, PointTraction& result) const override;
   void traction_alone(const Harmonics& motion, double frequency,
                       PointTraction& result) const override;
+  void states(const Harmonics& motion, double frequency, PointTraction& result) const override;
   [[nodiscard]] PointHistory history(const Harmonics& motion, double frequency,
                                      const Eigen::VectorXd& phases, int n_harmonics) const override;
   [[nodiscard]] Eigen::Vector3d stuck_stiffness() const override;
@@ -53,6 +54,7 @@ class PlaneEvents final : public PointMethod {
   }
 
  private:
+  static constexpr double states_tolerance = 1e-6;
   static constexpr double work_per_tolerance = 10.0;  // seldom one (test_work_error.cpp)
 
   SurfaceLaw law_;

@@ -79,6 +79,11 @@ class PointMethod {
                               PointTraction& result) const {
     traction(motion, frequency, result);
   }
+  /// `regime` and `period` alone, of a motion near a solution: events as close as the control of a
+  /// step asks for, 1e-4 rad where they are not tangent.
+  virtual void states(const Harmonics& motion, double frequency, PointTraction& result) const {
+    traction_alone(motion, frequency, result);
+  }
   /// Forces alone, with harmonics that the motion does not have.
   /// @param n_harmonics  of the result, those of the motion at least.
   [[nodiscard]] virtual Harmonics force_up_to(const Harmonics& motion, double frequency,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <stdexcept>
 #include <utility>
 
@@ -301,6 +302,28 @@ TEST(PlaneEvents, GaussianHeightsThatPartFarTouchAgain) {
       EXPECT_NEAR(traction.force.mean()[column], first.force.mean()[column], 1e-8) << turn;
     }
   }
+}
+
+// What a control of steps is told needs no forces, and no events closer than it tells them.
+TEST(PlaneEvents, StatesAreThoseOfTheForce) {
+  std::mt19937_64 random(11);
+  std::normal_distribution<double> g;
+  int different = 0;
+  constexpr int tried = 300;
+  for (int i = 0; i < tried; ++i) {
+    Harmonics motion(1 + i % 3, 3);
+    for (double& x : motion.vector()) x = g(random);
+    const PointParameters point{std::exp(g(random)), std::exp(g(random)),
+                                std::exp(0.7 * g(random) - 0.5), 1.5 * g(random) + 0.7};
+    const PlaneEvents method(SurfaceLaw(point, std::exp(g(random))), 1e-11);
+    PointTraction exact;
+    PointTraction told;
+    method.traction_alone(motion, 1.0, exact);
+    method.states(motion, 1.0, told);
+    EXPECT_EQ(told.regime, exact.regime) << i;
+    different += told.period.changed(exact.period) > 0.0 ? 1 : 0;
+  }
+  EXPECT_EQ(different, 0);
 }
 
 }  // namespace
