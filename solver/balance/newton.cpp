@@ -16,7 +16,8 @@ constexpr int max_halvings = 7;
 constexpr int max_polish = 4;
 constexpr double polished_below = 5e-11;  // a tolerance above asks for no more than it says
 // Below this nothing is gained: what is left of the residual is rounding of its sums.
-constexpr double rounding_level = 1e-14;
+constexpr double polished_to = 2e-15;
+constexpr double rounding_level = 1e-14;  // a shorter step cannot help any more
 
 class Iteration {
  public:
@@ -99,7 +100,7 @@ class Iteration {
   /// Goes on while the residual falls; near a kink a shorter step may do what the whole one does
   /// not.
   void polish() {
-    for (int i = 0; i < max_polish && now_.residual > rounding_level; ++i) {
+    for (int i = 0; i < max_polish && now_.residual > polished_to; ++i) {
       const BranchVector direction = newton_step();
       if (!direction.x.allFinite() || !std::isfinite(direction.parameter)) return;
       const double before = now_.residual;
