@@ -14,7 +14,7 @@ namespace {
 // the amplitude; of the frequency, where that is a tenth of the width of a resonance at the most,
 // to less.
 constexpr double amplitude_resolution = 1e-6;
-constexpr double frequency_resolution = 1e-8;
+constexpr double frequency_resolution = 3e-8;
 constexpr std::size_t close_by = 2;  // rows: peak and fold of one kink follow each other
 
 /// Share of its amplitude that a row is known to.

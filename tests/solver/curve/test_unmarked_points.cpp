@@ -67,6 +67,21 @@ TEST(UnmarkedPoints, AKinkThatIsApproachedInTinyStepsIsAFold) {
   EXPECT_EQ(curve.points[3].mark, PointMark::fold);
 }
 
+// Random scene 301.61: a fold at a kink, solved for within 1.5e-8 of its frequency, stood between
+// two rows that lie lower, so that three folds were told.
+TEST(UnmarkedPoints, AFoldThatIsSolvedBesideItsKinkIsOne) {
+  ResponseCurve curve = curve_of({{1.1, 1.0},
+                                  {1.05, 2.0},
+                                  {1.0 + 5e-9, 3.0},
+                                  {1.0 + 1.5e-8, 3.1, PointMark::fold},
+                                  {1.0, 3.2},
+                                  {1.0 + 1e-9, 3.3},
+                                  {1.05, 4.0},
+                                  {1.1, 5.0}});
+  mark_unsolved(curve);
+  EXPECT_TRUE(curve.log.empty());
+}
+
 TEST(UnmarkedPoints, APeakBesideTheFoldOfItsKinkIsNone) {
   ResponseCurve curve = curve_of({{1.0, 1.0},
                                   {1.1, 2.0},
