@@ -199,6 +199,7 @@ Moves moves_of(const std::string& source, const SceneDescription& scene, double 
 struct Plan {
   std::map<std::string, const Move*> moves{};
   double seconds = none;  ///< of the round
+  double structure_seconds = none;
   double curve_seconds = none;
 };
 
@@ -314,8 +315,11 @@ class Plans {
     });
     const double again =
         only_harmonics ? spent_.inexact_curves.value_or(spent_.curves) : spent_.curves;
+    const double errors =
+        only_harmonics ? spent_.inexact_errors.value_or(spent_.errors) : spent_.errors;
+    plan.structure_seconds = structure * spent_.structure;
     plan.curve_seconds = curves * again;
-    plan.seconds = structure * spent_.structure + plan.curve_seconds;
+    plan.seconds = plan.structure_seconds + plan.curve_seconds + curves * errors;
     const bool does_nothing =
         std::ranges::all_of(plan.moves, [](const auto& one) { return one.second->text.empty(); });
     if (!does_nothing && plan.seconds <= spent_.available) offer(plan);
@@ -424,8 +428,11 @@ std::optional<Refinement> refinement(const SceneDescription& scene,
   left = stuck_sources(moves, errors, tolerance);
   const Plans plans(errors, moves, spent, tolerance);
   const Plan& plan = plans.best();
-  Refinement result{
-      .scene = scene, .text = {}, .seconds = plan.seconds, .curve_seconds = plan.curve_seconds};
+  Refinement result{.scene = scene,
+                    .text = {},
+                    .seconds = plan.seconds,
+                    .structure_seconds = plan.structure_seconds,
+                    .curve_seconds = plan.curve_seconds};
   result.only_harmonics = true;
   std::vector<std::string> texts;
   for (const auto& [source, move] : plan.moves) {

@@ -16,20 +16,23 @@ namespace microslip::pipelines {
 /// A scene with finer settings.
 struct Refinement {
   SceneDescription scene;
-  std::string text;             ///< what is refined, for the log
-  bool new_mesh = false;        ///< mesh and modes are solved for again
-  bool only_harmonics = false;  ///< curves that are exact enough may stay
-  double seconds = 0.0;         ///< about, of the round; 0: not known
-  double curve_seconds = 0.0;   ///< of those, of its curves
+  std::string text;                ///< what is refined, for the log
+  bool new_mesh = false;           ///< mesh and modes are solved for again
+  bool only_harmonics = false;     ///< curves that are exact enough may stay
+  double seconds = 0.0;            ///< about, of the round; 0: not known
+  double structure_seconds = 0.0;  ///< of those, of mesh and modes
+  double curve_seconds = 0.0;      ///< of its curves, without their errors
 };
 
 /// What a scene has cost so far.
 struct SpentSeconds {
   double structure = 0.0;  ///< mesh and modes
   double curves = 0.0;
+  double errors = 0.0;  ///< of the curves, told
   /// Of the curves that are not exact enough yet: these alone are solved again where only harmonics
   /// change. Empty: all.
   std::optional<double> inexact_curves{};
+  std::optional<double> inexact_errors{};
   bool extrapolated = false;  ///< the modes: the error of the mesh falls faster
   double available = std::numeric_limits<double>::infinity();  ///< time there is for a round
 };

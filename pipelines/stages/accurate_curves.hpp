@@ -9,6 +9,11 @@
 
 namespace microslip::pipelines {
 
+/// What mesh and modes have taken, those on larger elements too, out of what the eigensolver has.
+/// On a slow or busy machine they are as dear beside the curves, whose seconds are measured.
+/// Of modes from an earlier run, which do not tell, by their size [s].
+[[nodiscard]] double seconds_of_structure(const StructureModes& modes);
+
 /// Refines a solution that is kept in the record, where the scene asks for a tolerance; a finer one
 /// that was solved in time takes its place, there and in the record. Effects that turn out to
 /// matter on it are put back.

@@ -25,7 +25,7 @@ StructurePointer structure_of(const Solution& before, const Refinement& step,
                               const SolvedAgain& round, Progress& progress) {
   if (!before.structure || !step.new_mesh) return before.structure;
   const Progress::Part part = progress.part("finer mesh and its modes");
-  progress.expect(step.seconds - step.curve_seconds);  // two cores save little of it
+  progress.expect(step.structure_seconds);  // two cores save little of it
   return std::make_shared<const SolvedStructure>(solved_structure(step.scene, round.mesh_file()));
 }
 

@@ -70,6 +70,18 @@ TEST(Refinement, PricesHarmonicsByTheCurvesThatAreSolvedAgain) {
   EXPECT_FALSE(is_exact(told[0], tolerance));
 }
 
+TEST(Refinement, PricesTheErrorsThatAreToldAgain) {
+  std::string left;
+  const std::vector<CurveBudget> told{budget({{"harmonics", 0.03}})};
+  SpentSeconds with_errors = spent;
+  with_errors.errors = 0.5 * spent.curves;
+  const auto alone = refinement(blade(), told, tolerance, spent, left);
+  const auto both = refinement(blade(), told, tolerance, with_errors, left);
+  ASSERT_TRUE(alone && both);
+  EXPECT_EQ(both->curve_seconds, alone->curve_seconds);
+  EXPECT_NEAR(both->seconds, 1.5 * alone->seconds, 1e-9 * alone->seconds);
+}
+
 TEST(Refinement, TakesTheCheapestWayThatIsEnough) {
   std::string left;
   const std::vector<CurveBudget> told{
