@@ -11,10 +11,10 @@ namespace microslip::solver {
 namespace {
 
 // Relative. Where a branch turns back at a kink it is known to the walker's shortest step, 1e-7 of
-// the amplitude; of the frequency, where that is a tenth of the width of a resonance at the most,
-// to less.
+// the amplitude; a fold that is solved for there stands within as much of the frequency, in front
+// of rows or behind some.
 constexpr double amplitude_resolution = 1e-6;
-constexpr double frequency_resolution = 3e-8;
+constexpr double frequency_resolution = 1e-7;
 constexpr std::size_t close_by = 2;  // rows: peak and fold of one kink follow each other
 
 /// Share of its amplitude that a row is known to.
