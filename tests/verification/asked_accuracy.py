@@ -275,7 +275,7 @@ class AskedAccuracy(unittest.TestCase):
         lean = ("--without", "plots", "--without", "maps")
         for name, allowed, settings in (
                 ("block_rough", 4, ("response.harmonics=auto", "response.preload=[10, 40]")),
-                ("chain_2dof", 3, ("response.harmonics=auto", "response.optimum=preload",
+                ("chain_2dof", 1, ("response.harmonics=auto", "response.optimum=preload",
                                    'response.optimum_range=["10 N", "100 N"]')),
                 ("chain_3dof_normal", 0.02, ('response.frequency=["24 Hz", "24 Hz"]', "response.preload=[10, 50]",
                                           "accuracy.tolerance=0.01"))):
