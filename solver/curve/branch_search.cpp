@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <optional>
+#include <sstream>
 #include <utility>
 
 #include "contact/dense.hpp"
@@ -101,6 +103,7 @@ class Search {
       if (is_stopped()) return;
       search_at(frequency);
     }
+    tell_cut();
   }
 
  private:
@@ -327,18 +330,38 @@ class Search {
     const ResponseCurve ahead =
         CurveTracer(scene_, options, goes_on).follow(start, balance_->set());
     count_work(ahead);
+    note_end(ahead);
     DetachedBranch branch;
     branch.closed = ahead.diagnosis == Diagnosis::loop;
     if (!branch.closed) {
       const ResponseCurve back =
           CurveTracer(scene_, backward, goes_on).follow(std::move(start), balance_->set());
       count_work(back);
+      note_end(back);
       if (!back.points.empty()) {
         branch.points.assign(back.points.rbegin(), back.points.rend() - 1);
       }
     }
     branch.points.insert(branch.points.end(), ahead.points.begin(), ahead.points.end());
     return branch;
+  }
+
+  void note_end(const ResponseCurve& branch) {
+    if (branch.complete || branch.diagnosis == Diagnosis::loop || branch.points.empty()) return;
+    cut_.push_back({branch.points.back().frequency, branch.diagnosis});
+  }
+
+  /// Of branches that were followed for where they come back to the one frequency.
+  void tell_cut() {
+    if (!is_point() || cut_.empty() || is_stopped()) return;
+    std::ostringstream text;
+    text.precision(6);
+    text << (curve_.message.empty() ? "" : "; ")
+         << "the branch of a solution was followed no further than "
+         << 0.5 * cut_.front().frequency / std::numbers::pi << " Hz ("
+         << to_string(cut_.front().diagnosis)
+         << "): where else it comes back to this frequency is not known";
+    curve_.message += text.str();
   }
 
   /// A curve that lacks a solution, beside it as well, is not complete.
@@ -361,6 +384,11 @@ class Search {
   const ContinuationOptions& options_;
   ResponseCurve& curve_;
   std::unique_ptr<HarmonicBalance> balance_;
+  struct Cut {
+    double frequency;
+    Diagnosis diagnosis;
+  };
+  std::vector<Cut> cut_;  // ends of branches within their range
 };
 
 }  // namespace

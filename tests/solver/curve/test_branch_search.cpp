@@ -173,6 +173,19 @@ TEST(BranchSearch, AtOneFrequencyFindsWhatASweepMeetsThere) {
   ASSERT_EQ(known.size(), 3U);
   ASSERT_EQ(found.size(), 3U);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(found[i], known[i], 1e-9 * known[i]);
+  EXPECT_TRUE(one.message.empty()) << one.message;
+}
+
+// Where the branch of a solution ends on its way, another one behind is not seen.
+TEST(BranchSearch, AtOneFrequencyTellsABranchThatWasNotFollowedToItsEnd) {
+  const Scene scene = that_opens();
+  ContinuationOptions there = range(two_pi * 48.7, two_pi * 48.7, 1);
+  there.n_harmonics = 3;
+  there.max_points = 5;
+  const ResponseCurve one = trace_response(scene, there);
+  EXPECT_TRUE(one.complete);
+  EXPECT_NE(one.message.find("followed no further than"), std::string::npos) << one.message;
+  EXPECT_NE(one.message.find("budget"), std::string::npos) << one.message;
 }
 
 TEST(BranchSearch, FindsNothingWhereThereIsNothing) {
