@@ -29,6 +29,7 @@ constexpr double of_an_effect = 350.0;
 constexpr double of_one_frequency = 25.0;
 constexpr double of_a_check = 30.0;  // of the peak, with eight harmonics more than were given
 constexpr double of_a_start = 20.0;
+constexpr int usual_starts = 12;  // at one frequency
 // Of a curve: five richer models, one of four times the points.
 constexpr double of_error_rows = 450.0;
 constexpr double of_error_rows_of_chosen = 700.0;  // peaks have more harmonics than their curves
@@ -49,8 +50,9 @@ constexpr int harmonics_of_a_choice_on_a_mesh = 9;
 constexpr int harmonics_of_a_choice_in_plane = 12;
 constexpr double period_map = 2.2e-4;          // of a point in scenes of few states, over harmonics
 constexpr double states_of_a_period_map = 16;  // at most (solver/stability/stability.hpp)
-constexpr double factorisation = 6e-11;        // over the cube of the unknowns
-constexpr double few_factorisations = 0.5;     // of evaluations that are cheap without derivatives
+constexpr double of_events_in_a_period = 10.0;  // where several points open and close
+constexpr double factorisation = 6e-11;         // over the cube of the unknowns
+constexpr double few_factorisations = 0.5;      // of evaluations that are cheap without derivatives
 // Hill's exponents of a point, over the cube of the unknowns up to where states are condensed; a
 // part of what evaluations take.
 constexpr double hill = 2e-10;
@@ -58,7 +60,7 @@ constexpr double hill_of_many = 4e-3;
 
 // A motion integrated in time, until it is periodic.
 constexpr double periods_from_rest = 250.0;
-constexpr double periods_of_a_step = 100.0;  // to the next frequency
+constexpr double periods_of_a_step = 200.0;  // to the next frequency
 constexpr double point_period = 0.9e-3;      // one contact point, one period
 constexpr double points_of_a_step = 32.0;    // so many more, and steps are twice as many
 
@@ -146,7 +148,8 @@ double point_seconds(const CurveEffects& effects, const Size& size) {
     case contact::Method::closed_form:
       return 1.0 * microsecond;
     case contact::Method::lanes:
-      return (plain ? 0.5 + 0.1 * square : in_plane * (4.0 + 0.3 * square)) * microsecond;
+      return (rough ? 1.6 : 1.0) * (plain ? 0.5 + 0.1 * square : in_plane * (4.0 + 0.3 * square)) *
+             microsecond;
     case contact::Method::point_methods:
       break;
   }
@@ -173,8 +176,10 @@ bool opens_at_once(const SceneDescription& scene, const CurveEffects& effects) {
   return !scene.contacts.empty() && !effects.areas && setting_of(scene, "normal_motion") != "off";
 }
 
+/// Many modes are seen by a contact through fewer coordinates.
 double cube_of_unknowns(const Size& size) {
-  const double unknowns = size.modes * (2.0 * size.harmonics + 1.0);
+  constexpr double most_coordinates = 40.0;  // about
+  const double unknowns = std::min(size.modes, most_coordinates) * (2.0 * size.harmonics + 1.0);
   return unknowns * unknowns * unknowns;
 }
 
@@ -186,11 +191,13 @@ double evaluation_seconds(const CurveEffects& effects, const Size& size) {
 
 /// Of one point of a curve, beside its evaluations: where the multipliers of its period are looked
 /// at. Below 0 where it is not judged, and evaluations are said to take more than they do.
-double stability_seconds(const CurveEffects& effects, const Size& size) {
+double stability_seconds(const SceneDescription& scene, const CurveEffects& effects,
+                         const Size& size) {
   if (size.harmonics == 1) return 0.0;
   const bool in_time =
       !effects.second_direction && 2.0 * size.modes + size.points <= states_of_a_period_map;
-  if (in_time) return effects.stability ? size.harmonics * period_map : 0.0;
+  const double events = has_many_events(scene, size) ? of_events_in_a_period : 1.0;
+  if (in_time) return effects.stability ? events * size.harmonics * period_map : 0.0;
   return effects.stability ? 0.0 : -std::min(hill * cube_of_unknowns(size), hill_of_many);
 }
 
@@ -264,9 +271,17 @@ double evaluations_with(const SceneDescription& scene, const CurveEffects& effec
 }
 
 /// Of a motion in time, as many integrations.
-double integrations_with(const SceneDescription& scene, double once) {
-  const auto n = static_cast<double>(members_left_out(scene).size());
+double integrations_with(const SceneDescription& scene, const CurveEffects& effects, double once) {
+  const bool along_r = !effects.second_direction && can_move_along_r(scene) &&
+                       setting_of(scene, "second_direction") == "auto";
+  const auto n = static_cast<double>(members_left_out(scene).size()) + (along_r ? 1.0 : 0.0);
   return (n > 1.0 ? n + 1.0 : n) * once;
+}
+
+/// Where "auto" looks: no resonance near by is known to be too far.
+int starts_at_one_frequency(const SceneDescription& scene) {
+  if (setting_of(scene, "coexistence") == "off") return 0;
+  return scene.response->search_starts.value_or(usual_starts);
 }
 
 /// As the search itself tells (OptimumSearch).
@@ -289,7 +304,7 @@ void add_search(const SceneDescription& scene, const CurveEffects& effects,
   // About: peaks alone are judged, and the curves of its error.
   constexpr double stable_curves = 10.0;
   const Size size = size_of(scene, effects);
-  const double stability = std::max(stability_seconds(effects, size), 0.0);
+  const double stability = std::max(stability_seconds(scene, effects, size), 0.0);
   const double search = of_a_search * evaluation_seconds(effects, size);
   const double judged = stable_curves * points_of_a_curve * stability;
   if (!is_short_search(scene)) {
@@ -327,12 +342,13 @@ CurveEffects curve_effects(const SceneDescription& scene, bool second_direction)
 ResponseSeconds response_seconds(const SceneDescription& scene, const CurveEffects& effects) {
   const Size size = size_of(scene, effects);
   const double evaluation = evaluation_seconds(effects, size);
-  const double stability = stability_seconds(effects, size);
+  const double stability = stability_seconds(scene, effects, size);
   const bool one = is_one_frequency(scene);
   ResponseSeconds seconds;
   if (scene.response->method == ResponseDescription::Method::time) {
     seconds.curves = seconds_in_time(scene, size);
-    if (scene.accuracy.error_budget) seconds.errors = integrations_with(scene, seconds.curves);
+    if (scene.accuracy.error_budget)
+      seconds.errors = integrations_with(scene, effects, seconds.curves);
   } else {
     const double more = has_many_events(scene, size)    ? of_many_events
                         : opens_at_once(scene, effects) ? of_one_point_that_opens
@@ -346,9 +362,12 @@ ResponseSeconds response_seconds(const SceneDescription& scene, const CurveEffec
         (std::max(0.5 * evaluations * evaluation,
                   evaluations * evaluation + (one ? 1.0 : points_of_a_curve) * stability) +
          check_seconds(scene, effects, size));
+    if (one) seconds.curves += search_seconds(scene, effects, starts_at_one_frequency(scene));
     if (scene.accuracy.error_budget) {
       const bool meshed = !scene.contacts.empty();
-      const double of_rows = effects.chosen_harmonics ? of_error_rows_of_chosen : of_error_rows;
+      const double in_plane = effects.second_direction ? 2.0 : 1.0;
+      const double of_rows =
+          in_plane * (effects.chosen_harmonics ? of_error_rows_of_chosen : of_error_rows);
       const double rows = meshed ? of_rows * evaluation : 0.0;
       const double check = meshed ? of_an_effect_on_a_mesh : of_an_effect;
       const double n_with_rows = n_curves(scene) - (1.0 - rows_of_a_linear_curve) * n_linear;

@@ -47,10 +47,13 @@ std::string line_begin(const std::string& curve, const solver::ResponsePoint& po
   return row_of(history_columns().first(3), {curve, point});
 }
 
+std::string place_of(const std::string& curve, const solver::ResponsePoint& point) {
+  return fmt::format("{}  {:.4f} Hz  {:.4e} m", curve, hertz(point.frequency), point.amplitude);
+}
+
 std::string describe(const std::string& curve, const solver::ResponsePoint& point) {
   constexpr double percent = 100.0;
-  std::string text =
-      fmt::format("{}  {:.4f} Hz  {:.4e} m", curve, hertz(point.frequency), point.amplitude);
+  std::string text = place_of(curve, point);
   const contact::CycleReport& share = point.report;
   if (share.stick_share + share.slip_share + share.separated_share > 0.0) {
     text += fmt::format("  stick {:.0f} % slip {:.0f} % open {:.0f} %", percent * share.stick_share,
@@ -212,11 +215,16 @@ void Progress::point(const std::string& curve, const solver::ResponsePoint& poin
       terminal_ ? now - last_drawn_ >= redraw_interval : silence(now) >= plain_interval();
   if (!is_due) return;
   last_drawn_ = now;
-  std::string line = fmt::format("{}  {}", stage_, text);
+  std::string left;
   if (fraction > first_guess) {
-    line += "  " + duration_text(fraction < 1.0 ? seconds_left(now) : 0.0) + " left";
+    left = "  " + duration_text(fraction < 1.0 ? seconds_left(now) : 0.0) + " left";
   }
+  std::string line = fmt::format("{}  {}{}", stage_, text, left);
   if (terminal_) {
+    // What does not fit is cut off at the end, where the time left stands.
+    if (line.size() >= terminal_width()) {
+      line = fmt::format("{}  {}{}", stage_, place_of(curve, point), left);
+    }
     draw_live(line);
   } else {
     print_line(line);

@@ -96,13 +96,15 @@ PictureSeconds picture_seconds(const SceneDescription& scene) {
   constexpr double of_a_plot = 0.4;
   constexpr double of_a_map = 0.08;
   constexpr double of_a_harmonic = 0.02;
+  constexpr double of_a_motion = 0.05;  // at the peak, whatever maps there are
   if (!scene.response) return {};
   const std::vector<CurveRequest> curves = curve_requests(scene);
   const auto n_loaded = static_cast<double>(std::ranges::count_if(
       curves, [](const auto& one) { return std::holds_alternative<double>(one.load); }));
   const double n_maps = n_loaded * static_cast<double>(scene.response->maps.size());
   const double harmonics = scene.settings.harmonics.highest;
-  return {.maps = machine_slowness() * n_maps * (of_a_map + of_a_harmonic * harmonics),
+  const double maps = n_maps * (of_a_map + of_a_harmonic * harmonics) + n_loaded * of_a_motion;
+  return {.maps = machine_slowness() * maps,
           .plots = machine_slowness() * (of_start + of_a_plot * n_maps)};
 }
 

@@ -125,8 +125,10 @@ TEST(CurveCost, ABestValueIsToldApart) {
   EXPECT_GT(searched.bracket, searched.best_value);
 }
 
-TEST(CurveCost, OneFrequencyIsNoCurve) {
-  EXPECT_LT(seconds({"response.frequency=20"}).curves, 0.1 * seconds({}).curves);
+TEST(CurveCost, OneFrequencyIsNoCurveButASearchThere) {
+  const double alone = seconds({"response.frequency=20", "response.search_starts=0"}).curves;
+  EXPECT_LT(alone, 0.1 * seconds({}).curves);
+  EXPECT_GT(seconds({"response.frequency=20"}).curves, 2.0 * alone);
 }
 
 TEST(CurveCost, AMotionInTimeCostsByItsFrequencies) {
