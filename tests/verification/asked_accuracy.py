@@ -245,14 +245,14 @@ class AskedAccuracy(unittest.TestCase):
         self.assertGreater(result["accuracy"]["reached"], 2e-4)
 
     def test_a_mesh_and_modes_end_in_time(self):
-        """The mesh is kept by the first command, so that the others have the whole budget for the modes: 80 of them are not begun;
+        """The mesh is kept by the first command, so that the others have the whole budget for the modes: 160 of them are not begun;
         those of a rotating blade, which the forecast knows nothing of, are ended, in curves where the machine is fast."""
         environment = {**without_plots(), "MICROSLIP_CACHE": os.path.join(WORK, "cache")}
         sized = ("--set", "model.element_size=4 mm")
         mesh = program("mesh", scene("blade_to_ground"), *sized, "-o", os.path.join(WORK, "m.msh"), environment=environment)
         self.assertEqual(mesh.returncode, 0, mesh.stderr)
         rotating = ("--set", "static.axis={origin=[0,-0.3,0],direction=[0,0,1]}", "--set", "static.speed=314")
-        for stages, budget, settings in ((("modes",), 4, (*sized, "--set", "modes.count=80")),
+        for stages, budget, settings in ((("modes",), 4, (*sized, "--set", "modes.count=160")),
                                          (("modes", "contact", "curves", "accuracy", "report"), 4, (*sized, *rotating)),
                                          (("mesh",), 3, ("--set", "model.element_size=0.8 mm"))):
             with self.subTest(settings):
