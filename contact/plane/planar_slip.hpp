@@ -26,8 +26,8 @@
 #include <array>
 
 #include <Eigen/Core>
+#include "contact/numerics/stage_factor.hpp"
 #include "contact/plane/planar_motion.hpp"
-#include "contact/plane/stage_factor.hpp"
 
 namespace microslip::contact {
 

@@ -20,7 +20,7 @@
 
 #include <Eigen/Core>
 
-#include "contact/plane/basis_product.hpp"
+#include "contact/lanes/basis_product.hpp"
 #include "contact/plane/planar_corner.hpp"
 #include "contact/plane/planar_orbit.hpp"
 

@@ -1,4 +1,4 @@
-#include "contact/plane/stage_factor.hpp"
+#include "contact/numerics/stage_factor.hpp"
 
 #include <gtest/gtest.h>
 #include <Eigen/LU>

@@ -1,4 +1,4 @@
-#include "contact/plane/basis_product.hpp"
+#include "contact/lanes/basis_product.hpp"
 
 #include <cstddef>
 
