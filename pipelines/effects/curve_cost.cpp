@@ -9,6 +9,7 @@
 #include "contact/contact_force.hpp"
 #include "pipelines/description/curve_request.hpp"
 #include "pipelines/description/effects_left_out.hpp"
+#include "pipelines/effects/effect_choice.hpp"
 #include "pipelines/system/machine_speed.hpp"
 
 namespace microslip::pipelines {
@@ -29,7 +30,6 @@ constexpr double of_an_effect = 350.0;
 constexpr double of_one_frequency = 25.0;
 constexpr double of_a_check = 30.0;  // of the peak, with eight harmonics more than were given
 constexpr double of_a_start = 20.0;
-constexpr int usual_starts = 12;  // at one frequency
 // Of a curve: five richer models, one of four times the points.
 constexpr double of_error_rows = 450.0;
 constexpr double of_error_rows_of_chosen = 700.0;  // peaks have more harmonics than their curves
@@ -41,7 +41,6 @@ constexpr double of_a_short_search = 12'000.0;
 constexpr double searches_of_its_error = 0.5;
 constexpr double richer_curves_of_a_search = 5.0;
 constexpr double searches_of_a_bracket = 4.0;
-constexpr int few_harmonics = 3;                  // of a bracket beside a short search
 constexpr double frequencies_of_a_search = 14.0;  // of a range (solver/curve/branch_search.hpp)
 
 constexpr double points_of_a_curve = 95.0;
@@ -201,10 +200,6 @@ double stability_seconds(const SceneDescription& scene, const CurveEffects& effe
   return effects.stability ? 0.0 : -std::min(hill * cube_of_unknowns(size), hill_of_many);
 }
 
-bool is_one_frequency(const SceneDescription& scene) {
-  return scene.response->frequency_begin_hz == scene.response->frequency_end_hz;
-}
-
 /// Those that are no linear limit.
 double n_curves(const SceneDescription& scene) {
   return static_cast<double>(std::ranges::count_if(
@@ -222,7 +217,7 @@ double check_seconds(const SceneDescription& scene, CurveEffects effects, Size s
 }
 
 double seconds_in_time(const SceneDescription& scene, const Size& size) {
-  const double steps = is_one_frequency(scene) ? 0.0 : scene.response->n_time_points - 1;
+  const double steps = is_single_frequency(scene) ? 0.0 : scene.response->n_time_points - 1;
   const double period = std::max(size.points, 1.0) * point_period;
   return n_curves(scene) * period * (1.0 + size.points / points_of_a_step) *
          (periods_from_rest + steps * periods_of_a_step);
@@ -281,13 +276,7 @@ double integrations_with(const SceneDescription& scene, const CurveEffects& effe
 /// Where "auto" looks: no resonance near by is known to be too far.
 int starts_at_one_frequency(const SceneDescription& scene) {
   if (setting_of(scene, "coexistence") == "off") return 0;
-  return scene.response->search_starts.value_or(usual_starts);
-}
-
-/// As the search itself tells (OptimumSearch).
-bool is_short_search(const SceneDescription& scene) {
-  const HarmonicSettings& given = scene.settings.harmonics;
-  return !scene.contacts.empty() && (given.chosen() || given.highest > few_harmonics);
+  return default_starts(scene);
 }
 
 /// Of harmonics that are given, at the best value and beside it.
@@ -307,7 +296,7 @@ void add_search(const SceneDescription& scene, const CurveEffects& effects,
   const double stability = std::max(stability_seconds(scene, effects, size), 0.0);
   const double search = of_a_search * evaluation_seconds(effects, size);
   const double judged = stable_curves * points_of_a_curve * stability;
-  if (!is_short_search(scene)) {
+  if (!has_short_search(scene)) {
     seconds.best_value =
         (1.0 + searches_of_its_error) * search + judged + seconds_of_richer_curves(scene, effects);
     seconds.bracket = searches_of_a_bracket * (search + judged);
@@ -343,7 +332,7 @@ ResponseSeconds response_seconds(const SceneDescription& scene, const CurveEffec
   const Size size = size_of(scene, effects);
   const double evaluation = evaluation_seconds(effects, size);
   const double stability = stability_seconds(scene, effects, size);
-  const bool one = is_one_frequency(scene);
+  const bool one = is_single_frequency(scene);
   ResponseSeconds seconds;
   if (scene.response->method == ResponseDescription::Method::time) {
     seconds.curves = seconds_in_time(scene, size);
@@ -382,7 +371,7 @@ ResponseSeconds response_seconds(const SceneDescription& scene, const CurveEffec
 }
 
 double search_seconds(const SceneDescription& scene, const CurveEffects& effects, int n_starts) {
-  const bool one = is_one_frequency(scene);
+  const bool one = is_single_frequency(scene);
   const double starts = (one ? 1.0 : frequencies_of_a_search) * n_starts * of_a_start;
   const double followed = one && n_starts > 0 ? of_a_curve : 0.0;  // its own branch
   const Size size = size_of(scene, effects);

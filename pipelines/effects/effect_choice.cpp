@@ -345,10 +345,6 @@ EffectDecision wear(const EffectFacts& facts) {
                          : "response.maps asks for no map to show it in");
 }
 
-int default_starts(const SceneDescription& scene) {
-  return scene.response->search_starts.value_or(starts_of_a_search);
-}
-
 EffectDecision coexistence(const EffectFacts& facts) {
   const SceneDescription& scene = facts.scene;
   EffectDecision decision;
@@ -505,6 +501,10 @@ std::string harmonics_text(const SceneDescription& scene) {
   }
   if (harmonics.orders.empty()) return fmt::format("orders up to {} are kept", harmonics.highest);
   return fmt::format("the orders {} are kept", fmt::join(harmonics.orders, ", "));
+}
+
+int default_starts(const SceneDescription& scene) {
+  return scene.response->search_starts.value_or(starts_of_a_search);
 }
 
 int asked_starts(const SceneDescription& scene) {

@@ -21,18 +21,7 @@
 namespace microslip::pipelines {
 namespace {
 
-// How the best value moves is told by few, beside one another.
-constexpr int few_harmonics = 3;
-
 constexpr const char* friction = "friction_coefficient";  // of the bracket
-
-/// Bodies with patches err by their meshes, which shows as some per cent of a peak that is level
-/// over as much: their searches may end sooner. Points of bars,
-/// chains and modal scenes are searched to the end.
-bool ends_sooner(const SceneDescription& scene) {
-  const HarmonicSettings& harmonics = scene.settings.harmonics;
-  return !scene.contacts.empty() && (harmonics.chosen() || harmonics.highest > few_harmonics);
-}
 
 solver::OptimumOptions optimum_options(const SceneDescription& scene) {
   solver::OptimumOptions options;
@@ -53,7 +42,7 @@ solver::OptimumOptions optimum_options(const SceneDescription& scene) {
         "response.optimum: needs response.optimum_range = [low, high], or two positive preloads");
   }
   if (!(options.lower > 0.0)) options.scale = solver::ParameterScale::linear;
-  if (ends_sooner(scene)) {
+  if (has_short_search(scene)) {
     options.relative_tolerance = 5e-3;
     options.amplitude_tolerance = 3e-3;
   }
@@ -116,7 +105,7 @@ solver::Optimum OptimumSearch::search(const Factors& factors, int jobs) {
   solver::OptimumOptions options = options_for(factors);
   // Curves of a search are not written.
   constexpr double closely_enough = 1e-7;
-  if (ends_sooner(scene_)) {
+  if (has_short_search(scene_)) {
     range.residual_tolerance = std::max(range.residual_tolerance, closely_enough);
   }
   options.together = [jobs](std::size_t n, const auto& task) { in_parallel(n, jobs, task); };
@@ -249,7 +238,7 @@ void OptimumSearch::complete(OptimumBracket& bracket) {
       {friction, 1.0, std::move(optimum), {options_.lower, options_.upper}, false, few_harmonics});
 }
 
-bool OptimumSearch::bracket_by_few() const { return ends_sooner(scene_); }
+bool OptimumSearch::bracket_by_few() const { return has_short_search(scene_); }
 
 OptimumBracket OptimumSearch::bracket(int jobs) {
   OptimumBracket bracket;

@@ -91,9 +91,9 @@ double optimum_seconds(const ReducedModel& model, const SceneDescription& scene,
 }
 
 PictureSeconds picture_seconds(const SceneDescription& scene) {
-  // Of the coarse blade with one and nine harmonics, one to eight curves; a plot of two files.
+  // Of the default blade and a coarse one, one to ten curves; a plot of two files.
   constexpr double of_start = 1.3;
-  constexpr double of_a_plot = 0.4;
+  constexpr double of_a_plot = 0.6;
   constexpr double of_a_map = 0.08;
   constexpr double of_a_harmonic = 0.02;
   constexpr double of_a_motion = 0.05;  // at the peak, whatever maps there are

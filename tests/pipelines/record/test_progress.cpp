@@ -212,9 +212,8 @@ TEST(Progress, TerminalGetsOneLiveLineThatIsClearedAtTheEnd) {
   progress.point("preload_1", synthetic::point(295.5, 1e-4), 0.5);
   EXPECT_EQ(n_lines(out.str()), 0U);
   EXPECT_NE(out.str().find("curves  preload_1  295.5000 Hz"), std::string::npos) << out.str();
-  // Of 80 columns: the shares of stick, slip and separation would push the time left over the edge.
-  EXPECT_EQ(out.str().find("stick"), std::string::npos) << out.str();
-  EXPECT_NE(out.str().find("m  0 s left"), std::string::npos) << out.str();
+  // On a narrow one the shares of stick, slip and separation would push it over the edge.
+  EXPECT_TRUE(out.str().ends_with("  0 s left")) << out.str();
   progress.finish();
   EXPECT_EQ(out.str().back(), '\n');
   EXPECT_NE(out.str().find("\r\033[Kcurves "), std::string::npos);
