@@ -59,7 +59,7 @@ constexpr double hill_of_many = 4e-3;
 
 // A motion integrated in time, until it is periodic.
 constexpr double periods_from_rest = 250.0;
-constexpr double periods_of_a_step = 200.0;  // to the next frequency
+constexpr double periods_of_a_step = 150.0;  // to the next frequency
 constexpr double point_period = 0.9e-3;      // one contact point, one period
 constexpr double points_of_a_step = 32.0;    // so many more, and steps are twice as many
 
@@ -155,7 +155,7 @@ double point_seconds(const CurveEffects& effects, const Size& size) {
   if (plain) return (2.0 + 1.5 * more + 0.17 * more * more) * microsecond;
   if (!effects.second_direction) return 17.0 * both * (1.0 + 0.7 * more) * microsecond;
   const double surface = (rough ? 1.4 : 1.0) * (effects.rate_dependence ? 0.8 : 1.0);
-  return 215.0 * surface * (1.0 + 0.13 * more) * microsecond;
+  return 130.0 * surface * (1.0 + 0.13 * more) * microsecond;
 }
 
 /// Of points of a scene of numbers, of which several have a load that varies; those of a mesh are
