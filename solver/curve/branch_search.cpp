@@ -347,7 +347,9 @@ class Search {
   }
 
   void note_end(const ResponseCurve& branch) {
-    if (branch.complete || branch.diagnosis == Diagnosis::loop || branch.points.empty()) return;
+    const bool leaves =
+        branch.complete || branch.diagnosis == Diagnosis::out_of_range;  // by an edge
+    if (leaves || branch.diagnosis == Diagnosis::loop || branch.points.empty()) return;
     cut_.push_back({branch.points.back().frequency, branch.diagnosis});
   }
 

@@ -188,6 +188,14 @@ TEST(BranchSearch, AtOneFrequencyTellsABranchThatWasNotFollowedToItsEnd) {
   EXPECT_NE(one.message.find("budget"), std::string::npos) << one.message;
 }
 
+// The middle part of a hardening spring leaves the range where it began: its end, too.
+TEST(BranchSearch, ABranchThatLeavesByEitherEdgeIsFollowedToItsEnd) {
+  const tests::Duffing duffing;
+  const ResponseCurve one = trace_response(duffing.scene(), range(1.36, 1.36, 12));
+  EXPECT_EQ(one.points.size() + one.detached.size(), 3U);
+  EXPECT_TRUE(one.message.empty()) << one.message;
+}
+
 TEST(BranchSearch, FindsNothingWhereThereIsNothing) {
   // Hardening spring below its fold: one solution everywhere.
   tests::Duffing duffing;
