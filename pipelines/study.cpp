@@ -5,7 +5,7 @@
 #include "pipelines/questions/questions.hpp"
 #include "pipelines/record/failed_start.hpp"
 #include "pipelines/record/run_record.hpp"
-#include "pipelines/response/response_stage.hpp"
+#include "pipelines/response/curve_requirements.hpp"
 #include "pipelines/stages/accurate_curves.hpp"
 #include "pipelines/stages/best_value.hpp"
 #include "pipelines/stages/curve_family.hpp"

@@ -18,7 +18,6 @@
 #include "pipelines/effects/effect_sizes.hpp"
 #include "pipelines/model/contact_stage.hpp"
 #include "pipelines/model/curve_load.hpp"
-#include "pipelines/response/response_stage.hpp"
 #include "pipelines/response/sampled_curve.hpp"
 
 namespace microslip::pipelines {

@@ -12,6 +12,8 @@
 
 #include "pipelines/accuracy/error_budget.hpp"
 #include "pipelines/description/curve_request.hpp"
+#include "pipelines/response/harmonics_check.hpp"
+#include "pipelines/response/highest_peak.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/system/interrupt.hpp"
 #include "pipelines/system/scene_error.hpp"

@@ -9,9 +9,10 @@
 
 #include <fmt/format.h>
 
+#include "pipelines/response/highest_peak.hpp"
 #include "pipelines/response/resonating_shapes.hpp"
-#include "pipelines/response/response_stage.hpp"
 #include "pipelines/response/sampled_curve.hpp"
+#include "pipelines/response/solver_scenes.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/text/rounded.hpp"
 #include "solver/point_shift.hpp"

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "pipelines/description/curve_request.hpp"
+#include "pipelines/response/highest_peak.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/in_parallel.hpp"

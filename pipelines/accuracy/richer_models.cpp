@@ -5,7 +5,7 @@
 
 #include "contact/contact_force.hpp"
 #include "pipelines/accuracy/coarser_mesh.hpp"
-#include "pipelines/response/response_stage.hpp"
+#include "pipelines/response/solver_scenes.hpp"
 #include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {

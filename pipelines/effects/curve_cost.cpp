@@ -207,7 +207,7 @@ double n_curves(const SceneDescription& scene) {
       [](const CurveRequest& one) { return !std::holds_alternative<LimitName>(one.load); }));
 }
 
-/// Of the harmonics of one curve (response_stage.hpp).
+/// Of the harmonics of one curve (harmonics_check.hpp).
 double check_seconds(const SceneDescription& scene, CurveEffects effects, Size size) {
   const HarmonicSettings& given = scene.settings.harmonics;
   if (given.chosen() || !given.checked || size.points == 0.0) return 0.0;

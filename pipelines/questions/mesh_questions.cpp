@@ -19,7 +19,6 @@
 #include "pipelines/model/contact_frame.hpp"
 #include "pipelines/model/scene_places.hpp"
 #include "pipelines/questions/question.hpp"
-#include "pipelines/response/response_stage.hpp"
 
 namespace microslip::pipelines {
 namespace {

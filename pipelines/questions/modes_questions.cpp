@@ -9,6 +9,7 @@
 
 #include "pipelines/model/reduced_model.hpp"
 #include "pipelines/questions/question.hpp"
+#include "pipelines/response/curve_requirements.hpp"
 
 namespace microslip::pipelines {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "contact/contact_force.hpp"
 #include "fem/slepc_session.hpp"
-#include "pipelines/response/response_stage.hpp"
+#include "pipelines/response/highest_peak.hpp"
 #include "pipelines/text/effect_table.hpp"
 #include "pipelines/text/rounded.hpp"
 

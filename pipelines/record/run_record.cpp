@@ -30,7 +30,6 @@
 #include "pipelines/record/run_messages.hpp"
 #include "pipelines/response/effects_of_curves.hpp"
 #include "pipelines/response/end_remedies.hpp"
-#include "pipelines/response/response_stage.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/exit_code.hpp"
 #include "pipelines/system/interrupt.hpp"

@@ -9,9 +9,11 @@
 
 #include <fmt/format.h>
 
+#include "pipelines/description/curve_request.hpp"
 #include "pipelines/model/contact_factors.hpp"
 #include "pipelines/response/end_remedies.hpp"
-#include "pipelines/response/response_stage.hpp"
+#include "pipelines/response/harmonics_check.hpp"
+#include "pipelines/response/solver_scenes.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/in_parallel.hpp"
 #include "pipelines/system/interrupt.hpp"

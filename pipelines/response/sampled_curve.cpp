@@ -12,7 +12,7 @@
 
 #include "contact/contact_force.hpp"
 #include "pipelines/effects/contact_effects.hpp"
-#include "pipelines/response/response_stage.hpp"
+#include "pipelines/response/solver_scenes.hpp"
 
 namespace microslip::pipelines {
 namespace {

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "pipelines/response/response_stage.hpp"
+#include "pipelines/response/highest_peak.hpp"
 #include "pipelines/stages/solved_again.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/text/rounded.hpp"

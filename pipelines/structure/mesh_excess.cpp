@@ -17,7 +17,7 @@ namespace microslip::pipelines {
 namespace {
 
 constexpr double percent = 100.0;
-constexpr std::ptrdiff_t most = 4;  // modes that are told: each takes as long as an assembly
+constexpr std::ptrdiff_t most_told = 4;  // modes that are told: each takes as long as an assembly
 
 bool is_told(const SceneDescription& scene, const StructureModes& modes) {
   const auto* file = std::get_if<MeshFileModel>(&scene.model);
@@ -36,10 +36,11 @@ std::vector<Eigen::Index> modes_of_range(const SceneDescription& scene,
   for (Eigen::Index i = modes.basis.n_rigid_body; i < modes.basis.n_free(); ++i) {
     const bool is_above = modes.basis.frequency[i] > 2.0 * std::numbers::pi * end;
     if (is_above && !in_range.empty()) break;
-    if (!scene.response && std::ssize(in_range) == most) break;
+    if (!scene.response && std::ssize(in_range) == most_told) break;
     in_range.push_back(i);
   }
-  if (std::ssize(in_range) > most) in_range.erase(in_range.begin(), in_range.end() - most);
+  if (std::ssize(in_range) > most_told)
+    in_range.erase(in_range.begin(), in_range.end() - most_told);
   return in_range;
 }
 

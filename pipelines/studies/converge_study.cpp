@@ -8,7 +8,7 @@
 #include "pipelines/accuracy/convergence.hpp"
 #include "pipelines/files/plot_script.hpp"
 #include "pipelines/files/write_ladder.hpp"
-#include "pipelines/response/response_stage.hpp"
+#include "pipelines/response/curve_requirements.hpp"
 #include "pipelines/system/exit_code.hpp"
 #include "pipelines/system/output_file.hpp"
 

@@ -12,7 +12,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 std::atomic<double> allowed{std::numeric_limits<double>::infinity()};
-std::atomic<Clock::time_point> begin{Clock::now()};
+std::atomic<Clock::time_point> begun{Clock::now()};
 std::atomic<bool> was_cut{false};
 std::atomic<double> sharing{1.0};
 
@@ -21,7 +21,7 @@ std::atomic<double> sharing{1.0};
 void begin_deadline(double seconds, double spent) {
   const auto before =
       std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(spent));
-  begin = Clock::now() - before;
+  begun = Clock::now() - before;
   allowed = seconds;
   was_cut = false;
   sharing = 1.0;
@@ -35,7 +35,7 @@ double share_of_time() {
 }
 
 double seconds_spent() {
-  return std::chrono::duration<double>(Clock::now() - begin.load()).count();
+  return std::chrono::duration<double>(Clock::now() - begun.load()).count();
 }
 
 double seconds_left() { return allowed - seconds_spent(); }

@@ -21,7 +21,7 @@
 
 #include "pipelines/effects/contact_effects.hpp"
 #include "pipelines/model/contact_stage.hpp"
-#include "pipelines/response/response_stage.hpp"
+#include "pipelines/response/solver_scenes.hpp"
 #include "pipelines/scene/scene_file.hpp"
 #include "solver/continuation.hpp"
 #include "solver/time_integration.hpp"

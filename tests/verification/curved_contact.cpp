@@ -31,6 +31,8 @@
 #include "pipelines/effects/model_family.hpp"
 #include "pipelines/model/contact_frame.hpp"
 #include "pipelines/model/linear_limits.hpp"
+#include "pipelines/response/curve_requirements.hpp"
+#include "pipelines/response/highest_peak.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/scene/scene_file.hpp"
 #include "pipelines/structure/structure_stage.hpp"

@@ -9,7 +9,10 @@
 
 #include "pipelines/description/curve_request.hpp"
 #include "pipelines/effects/model_family.hpp"
+#include "pipelines/response/harmonics_check.hpp"
+#include "pipelines/response/highest_peak.hpp"
 #include "pipelines/response/response_stage.hpp"
+#include "pipelines/response/solver_scenes.hpp"
 #include "pipelines/scene/scene_file.hpp"
 
 namespace microslip::pipelines::test_error_budget {

@@ -10,6 +10,8 @@
 
 #include "pipelines/description/curve_request.hpp"
 #include "pipelines/effects/model_family.hpp"
+#include "pipelines/response/curve_requirements.hpp"
+#include "pipelines/response/highest_peak.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/scene/scene_file.hpp"
 

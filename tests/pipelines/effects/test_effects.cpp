@@ -19,7 +19,6 @@
 #include "pipelines/model/reduced_model.hpp"
 #include "pipelines/model/scene_warnings.hpp"
 #include "pipelines/response/effects_of_curves.hpp"
-#include "pipelines/response/response_stage.hpp"
 #include "pipelines/scene/scene_file.hpp"
 #include "pipelines/system/scene_error.hpp"
 #include "pipelines/text/effect_table.hpp"

@@ -13,11 +13,13 @@
 #include <gtest/gtest.h>
 
 #include "fem/surface_load.hpp"
+#include "pipelines/description/curve_request.hpp"
 #include "pipelines/effects/contact_effects.hpp"
 #include "pipelines/effects/model_family.hpp"
 #include "pipelines/model/contact_stage.hpp"
 #include "pipelines/model/curve_load.hpp"
 #include "pipelines/model/nodal_load.hpp"
+#include "pipelines/response/highest_peak.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/scene/scene_file.hpp"
 #include "pipelines/structure/structure_stage.hpp"

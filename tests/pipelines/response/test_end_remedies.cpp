@@ -1,4 +1,5 @@
 // Whatever ends a curve, or a search for a best value, has a remedy that the program knows.
+#include "pipelines/description/curve_request.hpp"
 #include "pipelines/response/end_remedies.hpp"
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 
 #include "pipelines/effects/contact_effects.hpp"
 #include "pipelines/model/contact_stage.hpp"
+#include "pipelines/response/curve_maps.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/scene/scene_file.hpp"
 #include "pipelines/text/scene_keys.hpp"

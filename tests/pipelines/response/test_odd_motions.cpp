@@ -11,7 +11,9 @@
 
 #include "pipelines/description/curve_request.hpp"
 #include "pipelines/effects/model_family.hpp"
+#include "pipelines/response/highest_peak.hpp"
 #include "pipelines/response/response_stage.hpp"
+#include "pipelines/response/solver_scenes.hpp"
 #include "pipelines/scene/scene_file.hpp"
 #include "solver/balance/harmonic_balance.hpp"
 #include "solver/stability/stability.hpp"

@@ -6,8 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include "pipelines/description/curve_request.hpp"
 #include "pipelines/effects/contact_effects.hpp"
 #include "pipelines/model/contact_stage.hpp"
+#include "pipelines/response/harmonics_check.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/scene/scene_file.hpp"
 #include "pipelines/system/deadline.hpp"

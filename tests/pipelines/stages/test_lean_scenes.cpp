@@ -5,10 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "pipelines/description/curve_request.hpp"
 #include "pipelines/effects/contact_effects.hpp"
 #include "pipelines/model/contact_stage.hpp"
 #include "pipelines/model/reduced_model.hpp"
-#include "pipelines/response/response_stage.hpp"
+#include "pipelines/response/curve_requirements.hpp"
+#include "pipelines/response/solver_scenes.hpp"
 #include "pipelines/scene/scene_file.hpp"
 #include "pipelines/system/scene_error.hpp"
 

@@ -16,7 +16,6 @@
 #include "pipelines/effects/model_family.hpp"
 #include "pipelines/import/named_points.hpp"
 #include "pipelines/model/curve_load.hpp"
-#include "pipelines/response/response_stage.hpp"
 #include "pipelines/scene/scene_file.hpp"
 #include "pipelines/system/scene_error.hpp"
 #include "tests/support/box_mesh.hpp"
