@@ -17,6 +17,7 @@
 #include "fem/elements/number_text.hpp"
 #include "fem/elements/polynomial_tractions.hpp"
 #include "fem/elements/symmetric_pairs.hpp"
+#include "fem/petsc/blas_library.hpp"
 #include "fem/petsc/columns.hpp"
 #include "fem/petsc/conjugate_gradients.hpp"
 #include "fem/petsc/factorisation.hpp"
@@ -98,6 +99,7 @@ struct Structure::Implementation {
   Eigen::VectorXd displacement{};  // of the body as it rotates, 3 n_nodes [m]; empty: it does not
   CountedPairs uncounted{};        // of the last search, without its pairs
   MatHandle from_corners{};        // of quadratic elements, for the iterative way
+  std::unique_ptr<OneBlasThread> one_thread{};  // of that way
 
   void prepare();
   void prepare(Mat matrix);
@@ -111,6 +113,7 @@ struct Structure::Implementation {
   [[nodiscard]] ModalBasis with_shapes(const ModalBasis& basis, const RitzShapes& ritz) const;
   [[nodiscard]] Eigen::MatrixXd embedding(const ModalBasis& leaner, const ModalBasis& richer) const;
   void drop_held_rigid_modes();
+  void iterate_over(const mesh::Mesh& mesh);
   [[nodiscard]] ModalBasis basis_from(const CountedPairs& found, Eigen::Index n_modes) const;
   void check_residuals(const ModalBasis& basis, double tolerance) const;
 };
@@ -284,6 +287,11 @@ void Structure::Implementation::drop_held_rigid_modes() {
   rigid = (rigid * eigen.vectors.leftCols(n_free)).eval();
 }
 
+void Structure::Implementation::iterate_over(const mesh::Mesh& mesh) {
+  from_corners = corner_interpolation(mesh, system.dofs);
+  one_thread = std::make_unique<OneBlasThread>();
+}
+
 Structure::Structure(const mesh::Mesh& mesh, const Material& material,
                      const std::vector<std::string>& clamped, Tet10Rule rule, SolverKind solver) {
   const auto start = std::chrono::steady_clock::now();
@@ -291,9 +299,7 @@ Structure::Structure(const mesh::Mesh& mesh, const Material& material,
   Eigen::MatrixXd rigid = rigid_body_modes(mesh, system);
   self_ = std::make_unique<Implementation>(Implementation{
       mesh.nodes(), std::move(system), std::move(rigid), 0.0, nullptr, {}, rule, solver});
-  if (solver == SolverKind::iterative) {
-    self_->from_corners = corner_interpolation(mesh, self_->system.dofs);
-  }
+  if (solver == SolverKind::iterative) self_->iterate_over(mesh);
   self_->timings.assembly =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -309,9 +315,7 @@ Structure::Structure(const mesh::Mesh& mesh, const GivenMatrices& matrices, Solv
                                                           {},
                                                           Tet10Rule::accurate,
                                                           solver});
-  if (solver == SolverKind::iterative) {
-    self_->from_corners = corner_interpolation(mesh, self_->system.dofs);
-  }
+  if (solver == SolverKind::iterative) self_->iterate_over(mesh);
   self_->drop_held_rigid_modes();  // springs to ground and single supports are in K alone
 }
 

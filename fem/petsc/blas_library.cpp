@@ -78,6 +78,16 @@ void use_one_blas_thread() {
   if (auto* set_threads = symbol<void(int)>("openblas_set_num_threads")) set_threads(1);
 }
 
+OneBlasThread::OneBlasThread() {
+  if (auto* threads = symbol<int()>("openblas_get_num_threads")) n_threads_ = threads();
+  use_one_blas_thread();
+}
+
+OneBlasThread::~OneBlasThread() {
+  auto* set_threads = symbol<void(int)>("openblas_set_num_threads");
+  if (set_threads != nullptr && n_threads_ > 0) set_threads(n_threads_);
+}
+
 std::string blas_description() {
   if (auto* config = symbol<char*()>("openblas_get_config")) {
     auto* threads = symbol<int()>("openblas_get_num_threads");
