@@ -351,7 +351,9 @@ ResponseSeconds response_seconds(const SceneDescription& scene, const CurveEffec
         (std::max(0.5 * evaluations * evaluation,
                   evaluations * evaluation + (one ? 1.0 : points_of_a_curve) * stability) +
          check_seconds(scene, effects, size));
-    if (one) seconds.curves += search_seconds(scene, effects, starts_at_one_frequency(scene));
+    if (one && effects.is_searched) {
+      seconds.curves += search_seconds(scene, effects, starts_at_one_frequency(scene));
+    }
     if (scene.accuracy.error_budget) {
       const bool meshed = !scene.contacts.empty();
       const double in_plane = effects.second_direction ? 2.0 : 1.0;

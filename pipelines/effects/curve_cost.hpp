@@ -20,6 +20,8 @@ struct CurveEffects {
   bool residual = true;  ///< the modes have those shapes for omitted ones that the scene has
   bool stability = true;
   int linear_curves = 0;  ///< that cannot slip, open or close, as far as is known
+  /// At a single frequency other solutions are searched, as far as is known.
+  bool is_searched = true;
 };
 
 /// Its contact has displacements along r.

@@ -12,13 +12,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "pipelines/description/curve_request.hpp"
 #include "pipelines/description/effects_left_out.hpp"
 #include "pipelines/effects/contact_effects.hpp"
-#include "pipelines/effects/curve_cost.hpp"
 #include "pipelines/effects/effect_sizes.hpp"
 #include "pipelines/effects/motion_along_r.hpp"
 #include "pipelines/model/contact_frame.hpp"
 #include "pipelines/model/contact_stage.hpp"
+#include "pipelines/model/curve_load.hpp"
+#include "pipelines/system/scene_error.hpp"
 #include "pipelines/text/rounded.hpp"
 
 namespace microslip::pipelines {
@@ -520,6 +522,23 @@ int search_starts(const SceneDescription& scene, const ReducedModel& model, doub
   facts.both_directions = model.effects.second_direction;
   facts.reach = or_refused([&] { return contact_reach(model, scene, load); });
   return coexistence(facts).simulated == yes ? default_starts(scene) : 0;
+}
+
+CurveEffects decided_curve_effects(const SceneDescription& scene, const ReducedModel& model) {
+  CurveEffects effects = curve_effects(scene, model.effects.second_direction);
+  effects.linear_curves = n_linear_curves(model, scene);
+  const auto is_searched = [&](const CurveRequest& request) {
+    try {
+      const auto asked = load_of(request, model);
+      const auto* load = std::get_if<double>(&asked);
+      return load != nullptr && search_starts(scene, model, *load) > 0;
+    } catch (const RefusedError&) {  // refused where it is solved for
+      return false;
+    }
+  };
+  effects.is_searched =
+      is_single_frequency(scene) && std::ranges::any_of(curve_requests(scene), is_searched);
+  return effects;
 }
 
 }  // namespace microslip::pipelines

@@ -7,6 +7,7 @@
 
 #include "mesh/mesh.hpp"
 #include "pipelines/description/scene_description.hpp"
+#include "pipelines/effects/curve_cost.hpp"
 #include "pipelines/effects/effect_indicators.hpp"
 #include "pipelines/effects/effect_record.hpp"
 #include "pipelines/model/reduced_model.hpp"
@@ -67,6 +68,10 @@ struct EffectDecision {
 /// @throws RefusedError  no such load.
 [[nodiscard]] int search_starts(const SceneDescription& scene, const ReducedModel& model,
                                 double load);
+
+/// What a scene has, as decided for a model of it. @param scene  with [response].
+[[nodiscard]] CurveEffects decided_curve_effects(const SceneDescription& scene,
+                                                 const ReducedModel& model);
 
 /// What a scene says of its harmonics, in words.
 [[nodiscard]] std::string harmonics_text(const SceneDescription& scene);

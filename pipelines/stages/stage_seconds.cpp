@@ -22,9 +22,7 @@ namespace microslip::pipelines {
 namespace {
 
 ResponseSeconds seconds_of(const ReducedModel& model, const SceneDescription& scene) {
-  CurveEffects effects = curve_effects(scene, model.effects.second_direction);
-  effects.linear_curves = n_linear_curves(model, scene);
-  return response_seconds(scene, effects);
+  return response_seconds(scene, decided_curve_effects(scene, model));
 }
 
 /// Cores that share the curves.

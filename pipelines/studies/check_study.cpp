@@ -17,6 +17,7 @@
 #include "pipelines/description/curve_request.hpp"
 #include "pipelines/effects/contact_effects.hpp"
 #include "pipelines/effects/curve_cost.hpp"
+#include "pipelines/effects/effect_choice.hpp"
 #include "pipelines/effects/effect_indicators.hpp"
 #include "pipelines/effects/effects.hpp"
 #include "pipelines/effects/model_family.hpp"
@@ -52,9 +53,8 @@ void add_curves(const SceneDescription& scene, const ReducedModel* model, Foreca
   forecast.pictures = picture_seconds(scene);
   using enum Discretisation::Choice;
   const Discretisation::Choice along_r = scene.settings.second_direction;
-  const bool is_on = model != nullptr ? model->effects.second_direction : along_r == on;
-  CurveEffects effects = curve_effects(scene, is_on);
-  if (model != nullptr) effects.linear_curves = n_linear_curves(*model, scene);
+  const CurveEffects effects =
+      model != nullptr ? decided_curve_effects(scene, *model) : curve_effects(scene, along_r == on);
   forecast.response = response_seconds(scene, effects);
   if (model == nullptr && along_r == automatic) {
     forecast.response_along_r = response_seconds(scene, curve_effects(scene, true));

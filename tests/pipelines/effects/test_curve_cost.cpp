@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/effects/effect_indicators.hpp"
+#include "pipelines/effects/effect_choice.hpp"
 #include "pipelines/effects/model_family.hpp"
 #include "pipelines/scene/scene_file.hpp"
 
@@ -43,19 +43,28 @@ TEST(CurveCost, LinearLimitsCostNothing) {
   EXPECT_DOUBLE_EQ(seconds({}).curves, 2.0 * seconds({"response.preload=[10]"}).curves);
 }
 
+/// As decided on the model.
+double decided_seconds(const Overrides& overrides) {
+  const SceneDescription scene = parse_scene(chain, "scene.toml", "/nowhere", overrides);
+  std::vector<std::string> warnings;
+  const ReducedModel model = model_of(scene, nullptr, warnings);
+  return response_seconds(scene, decided_curve_effects(scene, model)).curves;
+}
+
 TEST(CurveCost, OfLoadsThatHoldWhateverTheLimitsDoIsNothing) {
-  const auto of = [](const Overrides& overrides) {
-    const SceneDescription scene = parse_scene(chain, "scene.toml", "/nowhere", overrides);
-    std::vector<std::string> warnings;
-    CurveEffects effects = curve_effects(scene, false);
-    effects.linear_curves = n_linear_curves(model_of(scene, nullptr, warnings), scene);
-    return response_seconds(scene, effects).curves;
-  };
-  EXPECT_EQ(of({"response.preload=[1e6]"}), 0.0);
-  EXPECT_GT(of({"response.preload=[10]"}), 0.0);
-  EXPECT_DOUBLE_EQ(of({"response.preload=[\"free\", 10, 1e6, 2e6]"}),
-                   of({"response.preload=[10]"}));
-  EXPECT_GT(of({"response.preload=[1e6]", "effects.nonlinearity=on"}), 0.0);
+  EXPECT_EQ(decided_seconds({"response.preload=[1e6]"}), 0.0);
+  const double one = decided_seconds({"response.preload=[10]"});
+  EXPECT_GT(one, 0.0);
+  EXPECT_DOUBLE_EQ(decided_seconds({"response.preload=[\"free\", 10, 1e6, 2e6]"}), one);
+  EXPECT_GT(decided_seconds({"response.preload=[1e6]", "effects.nonlinearity=on"}), 0.0);
+}
+
+// Nothing opens: no other solution is near by, and none is searched.
+TEST(CurveCost, OfOneFrequencyIsASearchWhereOneIsMade) {
+  const Overrides one{"response.preload=[10]", "response.frequency=[22, 22]"};
+  Overrides searched = one;
+  searched.emplace_back("effects.coexistence=on");
+  EXPECT_GT(decided_seconds(searched), 2.0 * decided_seconds(one));
 }
 
 TEST(CurveCost, MoreEffectsCostMore) {
