@@ -74,10 +74,12 @@ bool is_all_open(const SceneDescription& scene) {
 /// Somewhere the contact is open at rest.
 bool has_gap(const SceneDescription& scene) {
   if (lacks_normal_motion(scene)) return false;
-  if (const ModalModel* modal = modal_of(scene)) {
-    return std::ranges::any_of(modal->points, [](const auto& p) { return p.rest_load < 0.0; });
+  const ModalModel* modal = modal_of(scene);
+  if (modal != nullptr &&
+      std::ranges::any_of(modal->points, [](const auto& p) { return p.rest_load < 0.0; })) {
+    return true;
   }
-  return asks_for_gap(scene);
+  return asks_for_gap(scene);  // chains and blocks as well, whose points are loaded by it
 }
 
 /// The motion along r of given modes; the modes of a mesh have one.

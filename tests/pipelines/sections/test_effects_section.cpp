@@ -52,6 +52,23 @@ frequency = [10, 30]
 preload = ["free", 10, "stuck"]
 )toml";
 
+constexpr const char* chain_that_opens = R"toml([model]
+kind = "chain"
+coordinates = ["x1", "y1"]
+frequency = [20]
+mode_shapes = [[0.5, 0.7]]
+[modes]
+damping_ratio = 0.02
+[contact]
+points = [ { slip = "y1", approach = "x1", tangential_stiffness = 4e4, normal_stiffness = 4e4, friction_coefficient = 0.5 } ]
+[excitation]
+forces = [ { at = "y1", amplitude = 1 } ]
+[response]
+output = "y1"
+frequency = [18, 28]
+preload = [50]
+)toml";
+
 constexpr const char* blade = R"toml([model]
 kind = "blade"
 [material]
@@ -144,6 +161,10 @@ INSTANTIATE_TEST_SUITE_P(
         Contradicting{chain, {"effects.separation=on"}, "separation", no_normal},
         Contradicting{modal,
                       {"effects.separation=off", "modal.points[0].preload=-20"},
+                      "separation",
+                      "response.preload"},
+        Contradicting{chain_that_opens,
+                      {"effects.separation=off", "response.preload=[50, -1e5]"},
                       "separation",
                       "response.preload"},
         Contradicting{modal,
