@@ -351,8 +351,9 @@ ResponseSeconds response_seconds(const SceneDescription& scene, const CurveEffec
         (std::max(0.5 * evaluations * evaluation,
                   evaluations * evaluation + (one ? 1.0 : points_of_a_curve) * stability) +
          check_seconds(scene, effects, size));
-    if (one && effects.is_searched) {
-      seconds.curves += search_seconds(scene, effects, starts_at_one_frequency(scene));
+    if (one ? effects.is_searched : asked_starts(scene) > 0) {
+      const int n_starts = one ? starts_at_one_frequency(scene) : asked_starts(scene);
+      seconds.curves += search_seconds(scene, effects, n_starts);
     }
     if (scene.accuracy.error_budget) {
       const bool meshed = !scene.contacts.empty();

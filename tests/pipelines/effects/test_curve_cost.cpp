@@ -140,6 +140,15 @@ TEST(CurveCost, OneFrequencyIsNoCurveButASearchThere) {
   EXPECT_GT(seconds({"response.frequency=20"}).curves, 2.0 * alone);
 }
 
+TEST(CurveCost, ASearchOverARangeIsPartOfTheCurves) {
+  const double alone = seconds({}).curves;
+  EXPECT_EQ(seconds({"response.search_starts=0"}).curves, alone);
+  const double few = seconds({"effects.coexistence=on"}).curves;  // twelve starts
+  EXPECT_GT(few, 1.1 * alone);
+  const double many = seconds({"response.search_starts=120"}).curves;
+  EXPECT_NEAR((many - alone) / (few - alone), 10.0, 1e-6);
+}
+
 TEST(CurveCost, AMotionInTimeCostsByItsFrequencies) {
   const auto in_time = [](const std::string& points) {
     return seconds({"response.method=time", "response.points=" + points}).curves;
