@@ -165,12 +165,13 @@ void add_point(const contact::PatchSamples& cells, Eigen::Index i, double rest_l
       std::max(reach.slip, ratio(bounded ? std::hypot(force[0], force[2]) : unlimited, held));
 }
 
-ContactReach reach_under(const ReducedModel& model, const std::vector<LimitMotion>& motions,
-                         double load) {
+/// @param springs  the model whose springs act: without those along the normal no load varies.
+ContactReach reach_under(const ReducedModel& model, const ReducedModel& springs,
+                         const std::vector<LimitMotion>& motions, double load) {
   ContactReach reach;
   const contact::ContactForce contact(model.patches, {}, load);
   for (std::size_t k = 0; k < model.patches.size(); ++k) {
-    const contact::PatchSamples& cells = model.patches[k].cells;
+    const contact::PatchSamples& cells = springs.patches[k].cells;
     const auto& points = contact.points(k);
     for (const LimitMotion& motion : motions) {
       for (Eigen::Index i = 0; i < cells.size(); ++i) {
@@ -269,10 +270,38 @@ double attachment_share(const ReducedModel& model, const SceneDescription& scene
   return ratio(std::abs(without[nearest] - with[nearest]), with[nearest]);
 }
 
+/// The linear limits of a scene, under any of its loads. Where effects.normal_motion is "off" what
+/// slips and what may coexist is that of constant loads; what is left out is told of varying ones.
+class Reach {
+ public:
+  Reach(const ReducedModel& model, const SceneDescription& scene)
+      : model_(model), motions_(limit_motions(model, scene)) {
+    if (setting_of(scene, "normal_motion") != "off") return;
+    constant_ = model;
+    for (contact::Patch& patch : constant_->patches) patch.cells.stiffness.col(1).setZero();
+    constant_motions_ = limit_motions(*constant_, scene);
+  }
+
+  [[nodiscard]] ContactReach under(double load) const {
+    ContactReach reach = reach_under(model_, model_, motions_, load);
+    if (!constant_) return reach;
+    const ContactReach constant = reach_under(model_, *constant_, constant_motions_, load);
+    reach.slip = constant.slip;
+    reach.nearby = constant.nearby;
+    return reach;
+  }
+
+ private:
+  const ReducedModel& model_;
+  std::vector<LimitMotion> motions_;
+  std::optional<ReducedModel> constant_;
+  std::vector<LimitMotion> constant_motions_;
+};
+
 }  // namespace
 
 ContactReach contact_reach(const ReducedModel& model, const SceneDescription& scene, double load) {
-  return reach_under(model, limit_motions(model, scene), load);
+  return Reach(model, scene).under(load);
 }
 
 std::optional<ContactReach> contact_reach(const ReducedModel& model,
@@ -280,9 +309,9 @@ std::optional<ContactReach> contact_reach(const ReducedModel& model,
   if (!scene.response || model.patches.empty()) return std::nullopt;
   std::optional<ContactReach> most;
   try {
-    const std::vector<LimitMotion> motions = limit_motions(model, scene);
+    const Reach reach(model, scene);
     for (const double load : loads_of(model, scene)) {
-      most = larger(most.value_or(ContactReach{}), reach_under(model, motions, load));
+      most = larger(most.value_or(ContactReach{}), reach.under(load));
     }
   } catch (const contact::LoadError&) {
     // Refused where it is solved for, with a message of its own.
@@ -295,12 +324,12 @@ std::optional<ContactReach> contact_reach(const ReducedModel& model,
 int n_linear_curves(const ReducedModel& model, const SceneDescription& scene) {
   const bool solved = setting_of(scene, "nonlinearity") == "on" || is_rough(scene);
   if (!scene.response || model.patches.empty() || solved) return 0;
-  const std::vector<LimitMotion> motions = limit_motions(model, scene);
+  const Reach reach(model, scene);
   return static_cast<int>(std::ranges::count_if(curve_requests(scene), [&](const auto& request) {
     const auto asked = load_of(request, model);
     const auto* load = std::get_if<double>(&asked);
     try {
-      return load != nullptr && reach_under(model, motions, *load).slip < 1.0;
+      return load != nullptr && reach.under(*load).slip < 1.0;
     } catch (const contact::LoadError&) {  // refused where it is solved for
       return false;
     } catch (const RefusedError&) {

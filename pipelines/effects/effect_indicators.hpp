@@ -15,7 +15,8 @@
 namespace microslip::pipelines {
 
 /// How far the linear limits drive the points under a load. Infinite where a limit has no bound, or
-/// a point carries nothing and moves.
+/// a point carries nothing and moves. With effects.normal_motion = "off" `slip` and `nearby` are of
+/// constant loads, the others of what that leaves out.
 struct ContactReach {
   /// Force of a point in the stuck limit over what friction holds there at the least load of the
   /// period; where the point is open, approach in the free limit over its gap. Below 1 everywhere:

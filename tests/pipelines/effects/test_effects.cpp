@@ -191,6 +191,20 @@ TEST(Effects, ReachOfAPointIsThatOfItsLimits) {
   EXPECT_NEAR(reach.nearby, 2e3 * 0.5 * amplitude(stiffness, stuck_hz) / 4.0, 1e-9);
 }
 
+TEST(Effects, OfAConstantLoadNeitherSlipNorOtherSolutionsComeFromItsVariation) {
+  const SceneDescription scene = scene_of({"effects.normal_motion=off"});
+  const ContactReach reach = contact_reach(model_in(scene), scene, 1.0);
+  EXPECT_NEAR(reach.slip, 3e3 * amplitude(3e3, 12.0) / (0.5 * 4.0), 1e-12);
+  EXPECT_EQ(reach.nearby, 0.0);
+  EXPECT_EQ(reach.load, contact_reach(model_in(scene_of({})), scene_of({}), 1.0).load);
+  // A load that varies by more than it is, and friction that holds all the same.
+  const Overrides held{"effects.normal_motion=off", "modal.points[0].friction_coefficient=1e3",
+                       "modal.force_cosine=[100]"};
+  EXPECT_GT(contact_reach(model_in(scene_of(held)), scene_of(held), 1.0).load, 1.0);
+  EXPECT_LT(contact_reach(model_in(scene_of(held)), scene_of(held), 1.0).slip, 1.0);
+  EXPECT_EQ(n_linear_curves(model_in(scene_of(held)), scene_of(held)), 1);
+}
+
 TEST(Effects, AGapIsReachedByTheFreeLimit) {
   const SceneDescription scene = scene_of({"modal.points[0].preload=-4"});
   const ContactReach reach = contact_reach(model_in(scene), scene, 1.0);
