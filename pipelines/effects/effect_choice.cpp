@@ -31,6 +31,9 @@ using enum Simulated;
 constexpr double percent = 100.0;
 constexpr int starts_of_a_search = 12;
 constexpr double bearable_search = 60.0;  // [s]: what a scene may wait for without having asked
+constexpr const char* in_reach =          // of `coexistence`
+    "a resonance near by closes a gap, opens the contact or overcomes friction that falls with "
+    "speed";
 constexpr const char* later = "told when the modes are known, by `run`";
 
 EffectDecision by(bool simulated, std::string reason, std::optional<double> indicator = {}) {
@@ -368,7 +371,9 @@ EffectDecision coexistence(const EffectFacts& facts) {
   if (facts.model == nullptr) return decided(undecided, later);
   if (!facts.reach) return decided(no, "only the limits are asked for");
   if (facts.reach->nearby <= effect_row("coexistence").threshold) {
-    return decided(no, "no resonance near by closes a gap or opens a contact in the linear limits");
+    return decided(no,
+                   "no resonance near by closes a gap, opens a contact or overcomes friction that "
+                   "falls with speed in the linear limits");
   }
   const double seconds = seconds_of_search(facts);
   if (!is_single_frequency(scene)) {
@@ -380,12 +385,11 @@ EffectDecision coexistence(const EffectFacts& facts) {
   if (seconds > bearable_search) {
     return decided(
         no,
-        fmt::format("not searched: a resonance near by closes a gap or opens the contact, so that "
-                    "there may be other solutions; a search would take some {:.2g} s",
-                    seconds));
+        fmt::format("not searched: {}, so that there may be other solutions; a search would take "
+                    "some {:.2g} s",
+                    in_reach, seconds));
   }
-  return decided(
-      yes, "a resonance near by closes a gap or opens the contact: other solutions are looked for");
+  return decided(yes, fmt::format("{}: other solutions are looked for", in_reach));
 }
 
 /// Of the modes that a scene of numbers gives, with what stands for omitted ones.

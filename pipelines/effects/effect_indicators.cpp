@@ -14,6 +14,7 @@
 #include "pipelines/model/curve_load.hpp"
 #include "pipelines/model/linear_limits.hpp"
 #include "pipelines/system/scene_error.hpp"
+#include "pipelines/text/effect_table.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -141,8 +142,10 @@ std::vector<LimitMotion> limit_motions(const ReducedModel& model, const SceneDes
 }
 
 /// What one motion does at one point.
+/// @param fallen  μ at speed, where it falls: a point that sticks may as well slip then.
 void add_point(const contact::PatchSamples& cells, Eigen::Index i, double rest_load,
-               const LimitMotion& motion, const PointMotions& at, ContactReach& reach) {
+               const LimitMotion& motion, const PointMotions& at,
+               const std::optional<double>& fallen, ContactReach& reach) {
   const Eigen::RowVector3d largest = at.amplitude.row(i) + at.mean.row(i);
   const Eigen::RowVector3d force = cells.stiffness.row(i).cwiseProduct(largest);
   // A limit without bound moves everything without bound.
@@ -150,6 +153,12 @@ void add_point(const contact::PatchSamples& cells, Eigen::Index i, double rest_l
   const double change = bounded ? force[1] : unlimited;
   const double load = ratio(change, std::abs(rest_load));
   const bool loaded = rest_load > 0.0;
+  const double along = bounded ? std::hypot(force[0], force[2]) : unlimited;
+  const auto over_held = [&](double friction) {
+    return ratio(along, std::max(0.0, friction * (rest_load - change)));
+  };
+  const bool holds = motion.stuck && loaded && cells.has_friction(i);
+  if (holds && fallen) reach.nearby = std::max(reach.nearby, over_held(*fallen));
   if (motion.stuck == loaded) {
     reach.nearby = std::max(reach.nearby, load);
     if (motion.in_range && (load > 1.0 || !loaded)) reach.slip = std::max(reach.slip, load);
@@ -159,15 +168,38 @@ void add_point(const contact::PatchSamples& cells, Eigen::Index i, double rest_l
   const double mean = cells.stiffness(i, 1) * at.mean(i, 1);
   const double drift = ratio(std::isfinite(mean) ? mean : unlimited, std::abs(rest_load));
   reach.bias_load = std::max(reach.bias_load, drift + std::max(0.0, load - 1.0));
-  if (!motion.stuck || !loaded || !cells.has_friction(i)) return;
-  const double held = std::max(0.0, cells.friction[i] * (rest_load - change));
-  reach.slip =
-      std::max(reach.slip, ratio(bounded ? std::hypot(force[0], force[2]) : unlimited, held));
+  if (holds) reach.slip = std::max(reach.slip, over_held(cells.friction[i]));
+}
+
+/// μ at the highest speed of the limits, of each patch whose friction falls by as much as is told;
+/// empty: it does not.
+using FallenFriction = std::vector<std::optional<double>>;
+
+FallenFriction fallen_friction(const ReducedModel& model, const SceneDescription& scene,
+                               const std::vector<LimitMotion>& motions) {
+  const std::vector<contact::SurfaceRules> rules = surface_rules(scene);
+  FallenFriction fallen(model.patches.size());
+  for (std::size_t k = 0; k < fallen.size(); ++k) {
+    const auto& law = rules[k].friction;
+    if (!law) continue;
+    double fastest = 0.0;
+    for (const LimitMotion& motion : motions) {
+      const Eigen::MatrixX3d& amplitude = motion.patches[k].amplitude;
+      const double largest = std::hypot(amplitude.col(0).maxCoeff(), amplitude.col(2).maxCoeff());
+      constexpr double any = 1e300;  // [m/s]
+      fastest = std::max(fastest, std::isfinite(largest) ? motion.frequency * largest : any);
+    }
+    const double there = law->at(fastest).value;
+    const double least = 1.0 - effect_row("rate_dependence").threshold;
+    if (there < least * law->at_rest()) fallen[k] = there;
+  }
+  return fallen;
 }
 
 /// @param springs  the model whose springs act: without those along the normal no load varies.
 ContactReach reach_under(const ReducedModel& model, const ReducedModel& springs,
-                         const std::vector<LimitMotion>& motions, double load) {
+                         const std::vector<LimitMotion>& motions, const FallenFriction& fallen,
+                         double load) {
   ContactReach reach;
   const contact::ContactForce contact(model.patches, {}, load);
   for (std::size_t k = 0; k < model.patches.size(); ++k) {
@@ -176,7 +208,7 @@ ContactReach reach_under(const ReducedModel& model, const ReducedModel& springs,
     for (const LimitMotion& motion : motions) {
       for (Eigen::Index i = 0; i < cells.size(); ++i) {
         add_point(cells, i, points[static_cast<std::size_t>(i)].rest_load, motion,
-                  motion.patches[k], reach);
+                  motion.patches[k], fallen[k], reach);
       }
     }
   }
@@ -275,7 +307,9 @@ double attachment_share(const ReducedModel& model, const SceneDescription& scene
 class Reach {
  public:
   Reach(const ReducedModel& model, const SceneDescription& scene)
-      : model_(model), motions_(limit_motions(model, scene)) {
+      : model_(model),
+        motions_(limit_motions(model, scene)),
+        fallen_(fallen_friction(model, scene, motions_)) {
     if (setting_of(scene, "normal_motion") != "off") return;
     constant_ = model;
     for (contact::Patch& patch : constant_->patches) patch.cells.stiffness.col(1).setZero();
@@ -283,9 +317,9 @@ class Reach {
   }
 
   [[nodiscard]] ContactReach under(double load) const {
-    ContactReach reach = reach_under(model_, model_, motions_, load);
+    ContactReach reach = reach_under(model_, model_, motions_, fallen_, load);
     if (!constant_) return reach;
-    const ContactReach constant = reach_under(model_, *constant_, constant_motions_, load);
+    const ContactReach constant = reach_under(model_, *constant_, constant_motions_, fallen_, load);
     reach.slip = constant.slip;
     reach.nearby = constant.nearby;
     return reach;
@@ -294,6 +328,7 @@ class Reach {
  private:
   const ReducedModel& model_;
   std::vector<LimitMotion> motions_;
+  FallenFriction fallen_;
   std::optional<ReducedModel> constant_;
   std::vector<LimitMotion> constant_motions_;
 };

@@ -26,7 +26,8 @@ struct ContactReach {
   double load = 0.0;
   double bias_load = 0.0;  ///< the same of the mean: static forces, and what opening adds to it
   /// As `load`: of loaded points at resonances of the stuck, of open ones at those of the free
-  /// structure, whose way from one limit to the other leads through the range.
+  /// structure, whose way from one limit to the other leads through the range. Where friction falls
+  /// with speed, the force of the stuck limit there over what it holds at the highest speed too.
   double nearby = 0.0;
 };
 

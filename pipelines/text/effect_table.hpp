@@ -74,8 +74,9 @@ inline constexpr std::array effect_table{
               "none: pictures of solutions that are there, which change nothing", no_threshold,
               "nothing shows where the face sticks, slips and opens"},
     EffectRow{"coexistence", "search for other solutions beside those found",
-              "approach over gap, or change of load over load, at resonances near by", 1.0,
-              "a solution that no sweep meets is not seen"},
+              "approach over gap, change of load over load, or force over friction that falls with "
+              "speed, at resonances near by",
+              1.0, "a solution that no sweep meets is not seen"},
 };
 
 /// Motion of given modes along r is meant, unless it is rounding:

@@ -262,6 +262,26 @@ TEST(Effects, OtherSolutionsAreLookedForWhereAResonanceNearByReachesThem) {
   EXPECT_EQ(starts({gap, "effects.coexistence=off"}), 0);
 }
 
+// A point that sticks may as well slip where slipping holds less: both solutions are there.
+TEST(Effects, OtherSolutionsAreLookedForWhereFrictionFallsWithSpeed) {
+  const auto starts = [](const Overrides& more) {
+    Overrides all{"modal.points[0].normal_stiffness=0", "modal.points[0].preload=40"};
+    all.insert(all.end(), more.begin(), more.end());
+    const SceneDescription scene = scene_of(all);
+    return search_starts(scene, model_in(scene), 1.0);
+  };
+  const auto law = [](const char* kinetic) {
+    return std::string("contact.friction_law={ law = \"exponential\", static = 0.5, kinetic = ") +
+           kinetic + ", rate = 20 }";
+  };
+  EXPECT_EQ(starts({}), 0);
+  EXPECT_GT(starts({law("0.3")}), 0);
+  EXPECT_EQ(starts({law("0.3"), "effects.rate_dependence=off"}), 0);
+  EXPECT_EQ(starts({law("0.7")}), 0);                                 // it rises
+  EXPECT_EQ(starts({law("0.499")}), 0);                               // hardly
+  EXPECT_EQ(starts({law("0.3"), "modal.points[0].preload=4e6"}), 0);  // out of reach
+}
+
 TEST(Effects, SeparationThatIsOffIsObeyedWhereNothingOpens) {
   const SceneDescription scene =
       scene_of({"effects.separation=off", "effects.normal_motion=on", "modal.force_cosine=[1e-3]"});
