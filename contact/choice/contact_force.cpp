@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "contact/force/fewer_coordinates.hpp"
+#include "contact/force/motion_of_points.hpp"
 #include "contact/force/patch_force.hpp"
 #include "contact/force/point_method_force.hpp"
 #include "contact/force/vibration_alone.hpp"
@@ -133,17 +134,14 @@ void see_through(ModalShapes& shapes, const Eigen::MatrixXd& motion) {
   }
 }
 
-/// Sampled in lanes, seen through the coordinates given.
-std::unique_ptr<ModalForce> lanes_of(Stack stack, std::vector<SurfaceLaw> surfaces, int instants,
-                                     const MotionCoordinates& coordinates) {
-  if (!coordinates.all_modes()) {
-    require_fitting(coordinates, stack.shapes.u.cols());
-    see_through(stack.shapes, coordinates.motion);
-  }
-  auto force = std::make_unique<sampled::PatchForce>(std::move(stack.weights), std::move(surfaces),
-                                                     std::move(stack.shapes), instants);
-  if (coordinates.all_modes()) return force;
-  return std::make_unique<FewerCoordinates>(coordinates.of_modes, std::move(force));
+/// A force that is made of the stack, seen through the coordinates given.
+template <typename Make>
+std::unique_ptr<ModalForce> seen_through(const MotionCoordinates& coordinates, Stack stack,
+                                         const Make& make) {
+  if (coordinates.all_modes()) return make(std::move(stack));
+  require_fitting(coordinates, stack.shapes.u.cols());
+  see_through(stack.shapes, coordinates.motion);
+  return std::make_unique<FewerCoordinates>(coordinates.of_modes, make(std::move(stack)));
 }
 
 template <typename Item>
@@ -206,12 +204,22 @@ std::unique_ptr<ModalForce> ContactForce::force_of(std::size_t begin, std::size_
   const std::span points(points_.data() + begin, end - begin);
   Stack stack = stacked(patches, effects_);
   switch (method_for(patches, effects_)) {
-    case Method::closed_form:
-      return std::make_unique<PatchForce>(ContactPatch(stack.weights, joined(points)),
-                                          std::move(stack.shapes));
-    case Method::lanes:
-      return lanes_of(std::move(stack), surfaces(begin, end), instants_of(patches, effects_),
-                      coordinates_);
+    case Method::closed_form: {
+      const auto make = [&](Stack all) -> std::unique_ptr<ModalForce> {
+        return std::make_unique<PatchForce>(ContactPatch(all.weights, joined(points)),
+                                            std::move(all.shapes));
+      };
+      const MotionCoordinates few = motion_of_points(stack.shapes);
+      return seen_through(few, std::move(stack), make);
+    }
+    case Method::lanes: {
+      const auto make = [&](Stack all) -> std::unique_ptr<ModalForce> {
+        return std::make_unique<sampled::PatchForce>(std::move(all.weights), surfaces(begin, end),
+                                                     std::move(all.shapes),
+                                                     instants_of(patches, effects_));
+      };
+      return seen_through(coordinates_, std::move(stack), make);
+    }
     case Method::point_methods:
       break;
   }
@@ -220,8 +228,12 @@ std::unique_ptr<ModalForce> ContactForce::force_of(std::size_t begin, std::size_
     PointMethods own = methods_of(patches[i], patches[i].cells, effects_, points[i]);
     methods.insert(methods.end(), own.begin(), own.end());
   }
-  return std::make_unique<PointMethodForce>(std::move(stack.weights), std::move(methods),
-                                            std::move(stack.shapes));
+  const auto make = [&](Stack all) -> std::unique_ptr<ModalForce> {
+    return std::make_unique<PointMethodForce>(std::move(all.weights), std::move(methods),
+                                              std::move(all.shapes));
+  };
+  const MotionCoordinates few = motion_of_points(stack.shapes);
+  return seen_through(few, std::move(stack), make);
 }
 
 std::vector<SurfaceLaw> ContactForce::surfaces(std::size_t begin, std::size_t end) const {

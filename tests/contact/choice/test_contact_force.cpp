@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -170,6 +171,56 @@ TEST(ContactForce, IsThatOfAllModesThroughAsManyCoordinatesAsThePatchHasMotions)
   EXPECT_THROW(static_cast<void>(tests::evaluate(
                    *ContactForce(patches, {.n_harmonics = 3}, 40.0, two).modal_force(), q, 1.3)),
                std::invalid_argument);
+}
+
+/// Two points whose modes are their own motions u, v, w.
+Patch points_alone() {
+  Patch patch = patch_at(0.0, 2);
+  const Eigen::MatrixXd own = Eigen::MatrixXd::Identity(6, 6);
+  patch.cells.shapes = {own.topRows(2), own.middleRows(2, 2), own.bottomRows(2)};
+  return patch;
+}
+
+// Exact: the force on two points under whatever moves them, and its derivatives.
+TEST(ContactForce, OfFewPointsAndManyModesIsThatOfTheMotionsOfThePoints) {
+  constexpr Eigen::Index many = 40;
+  const Eigen::MatrixXd S =
+      Eigen::MatrixXd::NullaryExpr(6, many, [](Eigen::Index i, Eigen::Index n) {
+        return std::sin(1.0 + 1.7 * static_cast<double>(i) + 0.9 * static_cast<double>(n * n));
+      });
+  for (const Case& c : cases()) {
+    std::vector<Patch> alone{points_alone()};
+    std::vector<Patch> moved{points_alone()};
+    moved[0].cells.shapes = {S.topRows(2), S.middleRows(2, 2), S.bottomRows(2)};
+    for (auto* patches : {&alone, &moved}) patches->front().rules = c.rules;
+    Harmonics q(c.effects.n_harmonics, many);
+    for (Eigen::Index i = 0; i < q.rows().size(); ++i) {
+      q.rows().data()[i] = 0.2 * std::cos(0.3 + 1.3 * static_cast<double>(i));
+    }
+    Harmonics x(c.effects.n_harmonics, 6);
+    x.rows() = q.rows() * S.transpose();
+    for (const double load : {4.0, -2.0}) {
+      const auto of_points = ContactForce(alone, c.effects, load).modal_force();
+      const auto of_modes = ContactForce(moved, c.effects, load).modal_force();
+      const ForceAndJacobian a = tests::evaluate(*of_points, x, 1.3);
+      const ForceAndJacobian b = tests::evaluate(*of_modes, q, 1.3);
+      const Eigen::MatrixXd G = a.force.rows() * S;
+      EXPECT_LT((b.force.rows() - G).norm(), 1e-11 * (1.0 + G.norm())) << c.name;
+      const Eigen::Index n_rows = q.rows().rows();
+      double error = 0.0;
+      for (Eigen::Index i = 0; i < n_rows; ++i) {
+        for (Eigen::Index k = 0; k < n_rows; ++k) {
+          const Eigen::MatrixXd K = a.jacobian.block(6 * i, 6 * k, 6, 6);
+          const Eigen::MatrixXd J = b.jacobian.block(many * i, many * k, many, many);
+          error = std::max(error, (J - S.transpose() * K * S).norm());
+        }
+      }
+      EXPECT_LT(error, 1e-8 * (1.0 + b.jacobian.norm())) << c.name;
+      const auto parts = of_modes->evaluate(q, 1.3, {.fewer = true}, *of_modes->workspace());
+      ASSERT_TRUE(parts.fewer) << c.name;
+      EXPECT_LE(parts.fewer->of_modes.rows(), 6) << c.name;
+    }
+  }
 }
 
 TEST(ContactForce, MapsShowTheForceThatIsSimulated) {
