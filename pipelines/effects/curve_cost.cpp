@@ -175,10 +175,11 @@ bool opens_at_once(const SceneDescription& scene, const CurveEffects& effects) {
   return !scene.contacts.empty() && !effects.areas && setting_of(scene, "normal_motion") != "off";
 }
 
-/// Many modes are seen by a contact through fewer coordinates.
+/// Many modes are seen by a contact through fewer coordinates, by few points through three each.
 double cube_of_unknowns(const Size& size) {
   constexpr double most_coordinates = 40.0;  // about
-  const double unknowns = std::min(size.modes, most_coordinates) * (2.0 * size.harmonics + 1.0);
+  const double coordinates = std::min({size.modes, most_coordinates, 3.0 * size.points});
+  const double unknowns = coordinates * (2.0 * size.harmonics + 1.0);
   return unknowns * unknowns * unknowns;
 }
 

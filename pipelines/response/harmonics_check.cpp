@@ -15,13 +15,10 @@
 namespace microslip::pipelines {
 int harmonics_to_check(const ReducedModel& model, const SceneDescription& scene) {
   const HarmonicSettings& harmonics = scene.settings.harmonics;
-  constexpr int most_harmonics = 99;   // of a scene
-  constexpr int most_unknowns = 1500;  // seconds a step beyond
+  constexpr int most_harmonics = 99;  // of a scene
   if (harmonics.chosen() || !harmonics.checked || model.patches.empty()) return 0;
   const int highest = std::min(harmonics.highest + harmonics_of_a_check, most_harmonics);
-  if (highest <= harmonics.highest + harmonics_of_a_check / 2) return 0;
-  return static_cast<int>(model.frequency.size()) * (2 * highest + 1) <= most_unknowns ? highest
-                                                                                       : 0;
+  return highest > harmonics.highest + harmonics_of_a_check / 2 ? highest : 0;
 }
 
 namespace {
