@@ -14,6 +14,10 @@
 
 namespace microslip::solver {
 
+/// A peak that is so many times as high as that of another model, or less, is that of another
+/// resonance.
+inline constexpr double another_peak = 0.2;
+
 struct RicherPeak {
   double frequency = 0.0;  ///< with more harmonics [rad/s]
   double amplitude = 0.0;  ///< [m]

@@ -30,21 +30,22 @@ void trace_about_peak(const ReducedModel& model, double load, solver::Continuati
   constexpr double beside =
       0.015;  // of the frequency: some resonance widths of a lightly damped blade
   solver::RicherPeak& richer = *result.richer;
-  const double top = highest_peak(result.curve)->frequency;
+  const solver::ResponsePoint own = *highest_peak(result.curve);
   for (double* end : {&options.frequency_begin, &options.frequency_end}) {
-    *end = std::clamp(*end, (1.0 - beside) * top, (1.0 + beside) * top);
+    *end = std::clamp(*end, (1.0 - beside) * own.frequency, (1.0 + beside) * own.frequency);
   }
   const auto begin = std::chrono::steady_clock::now();
   const solver::ResponseCurve curve =
       solver::trace_response(balanced_scene(model, load, options), options,
                              [&options](const auto&) { return !options.stop(); });
   richer.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  const solver::ResponsePoint* peak = highest_peak(curve);
-  if (!curve.complete || peak == nullptr || peak->mark != solver::PointMark::peak) return;
+  const solver::ResponsePoint* peak = peak_above_all(curve);
+  if (!curve.complete || peak == nullptr) return;
+  if (peak->amplitude < solver::another_peak * own.amplitude) return;
   richer.frequency = peak->frequency;
   richer.amplitude = peak->amplitude;
   richer.dissipated_energy = peak->energy.friction;
-  richer.change = 1.0 - highest_peak(result.curve)->amplitude / peak->amplitude;
+  richer.change = 1.0 - own.amplitude / peak->amplitude;
 }
 
 }  // namespace

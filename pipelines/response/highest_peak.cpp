@@ -1,5 +1,7 @@
 #include "pipelines/response/highest_peak.hpp"
 
+#include <algorithm>
+
 namespace microslip::pipelines {
 const solver::ResponsePoint* highest_peak(const solver::ResponseCurve& curve) {
   const solver::ResponsePoint* best = nullptr;
@@ -11,6 +13,16 @@ const solver::ResponsePoint* highest_peak(const solver::ResponseCurve& curve) {
     if (best != nullptr) return best;
   }
   return nullptr;
+}
+
+const solver::ResponsePoint* peak_above_all(const solver::ResponseCurve& curve) {
+  const solver::ResponsePoint* peak = highest_peak(curve);
+  if (peak == nullptr || peak->mark != solver::PointMark::peak) return nullptr;
+  constexpr double rounding = 1e-9;
+  const double most = (1.0 + rounding) * peak->amplitude;
+  const bool is_above = std::ranges::all_of(
+      curve.points, [&](const solver::ResponsePoint& one) { return one.amplitude <= most; });
+  return is_above ? peak : nullptr;
 }
 
 }  // namespace microslip::pipelines

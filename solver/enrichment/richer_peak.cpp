@@ -121,14 +121,12 @@ std::optional<RicherPeak> richer_peak(const Scene& scene, const ContinuationOpti
   const std::optional<LocalPeak> found =
       carried_peak(scene, widened(range), top->peak, coarse.set(), all, work);
   result.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-  if (!found) return result;
+  if (!found || found->amplitude < another_peak * top->point.amplitude) return result;
   result.frequency = found->point.parameter;
   result.amplitude = found->amplitude;
   HarmonicBalance richer(scene, all);
   result.dissipated_energy = energy_of(richer, *found);
-  if (found->amplitude > 0.0) {
-    result.change = (found->amplitude - top->point.amplitude) / found->amplitude;
-  }
+  result.change = (found->amplitude - top->point.amplitude) / found->amplitude;
   return result;
 }
 
