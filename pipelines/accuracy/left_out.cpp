@@ -15,6 +15,7 @@
 #include "contact/dense.hpp"
 #include "contact/phase.hpp"
 #include "pipelines/accuracy/points_to_check.hpp"
+#include "pipelines/description/curve_request.hpp"
 #include "pipelines/response/highest_peak.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/response/sampled_curve.hpp"

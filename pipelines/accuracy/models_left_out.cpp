@@ -149,12 +149,6 @@ void add(const Names& names, const ReducedModel& model, const SceneDescription& 
 
 }  // namespace
 
-bool only_limits(const SceneDescription& scene) {
-  return scene.response && std::ranges::all_of(curve_requests(scene), [](const CurveRequest& one) {
-           return std::holds_alternative<LimitName>(one.load);
-         });
-}
-
 std::vector<std::string> effects_left_out(const ReducedModel& model,
                                           const SceneDescription& scene) {
   std::vector<std::string> names;

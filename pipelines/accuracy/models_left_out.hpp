@@ -35,7 +35,4 @@ inline constexpr std::string_view together = " + ";
 [[nodiscard]] std::vector<std::string> effects_left_out(const ReducedModel& model,
                                                         const SceneDescription& scene);
 
-/// The linear limits are all that is asked for.
-[[nodiscard]] bool only_limits(const SceneDescription& scene);
-
 }  // namespace microslip::pipelines

@@ -51,4 +51,14 @@ std::vector<CurveRequest> curve_requests(const SceneDescription& scene) {
   return requests;
 }
 
+bool only_limits(const SceneDescription& scene) {
+  return scene.response && std::ranges::all_of(curve_requests(scene), [](const CurveRequest& one) {
+           return std::holds_alternative<LimitName>(one.load);
+         });
+}
+
+bool is_linear_study(const SceneDescription& scene) {
+  return only_limits(scene) && !scene.response->optimum;
+}
+
 }  // namespace microslip::pipelines

@@ -22,4 +22,10 @@ struct CurveRequest {
 /// then the limits of a modal scene.
 [[nodiscard]] std::vector<CurveRequest> curve_requests(const SceneDescription& scene);
 
+/// The linear limits are all curves that are asked for.
+[[nodiscard]] bool only_limits(const SceneDescription& scene);
+
+/// The same, and nothing is searched along others: no contact under a load is solved for.
+[[nodiscard]] bool is_linear_study(const SceneDescription& scene);
+
 }  // namespace microslip::pipelines

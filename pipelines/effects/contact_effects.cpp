@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "pipelines/description/curve_request.hpp"
 #include "pipelines/effects/effects.hpp"
 
 namespace microslip::pipelines {
@@ -43,8 +44,9 @@ ContactEffects contact_effects(const ReducedModel& model, const SceneDescription
   require_obeyed(chosen, scene);
   const EffectRecord& along_r = effect_in(chosen, "second_direction");
   effects.normal_motion = effect_in(chosen, "normal_motion").simulated != Simulated::no;
-  effects.mean_coupling =
-      !effects.normal_motion || effect_in(chosen, "mean_coupling").simulated != Simulated::no;
+  effects.mean_coupling =  // of the limits alone nothing is left out
+      !effects.normal_motion || is_linear_study(scene) ||
+      effect_in(chosen, "mean_coupling").simulated != Simulated::no;
   effects.motion_ratio = along_r.indicator.value_or(0.0);
   effects.second_direction = along_r.simulated == Simulated::yes && !model.patches.empty();
   if (effects.second_direction) require_stiffness_along_r(model, scene);

@@ -34,6 +34,7 @@ constexpr double bearable_search = 60.0;  // [s]: what a scene may wait for with
 constexpr const char* in_reach =          // of `coexistence`
     "a resonance near by closes a gap, opens the contact or overcomes friction that falls with "
     "speed";
+constexpr const char* limits_alone = "only the limits are asked for";
 constexpr const char* later = "told when the modes are known, by `run`";
 
 EffectDecision by(bool simulated, std::string reason, std::optional<double> indicator = {}) {
@@ -50,11 +51,11 @@ EffectDecision nonlinearity(const EffectFacts& facts) {
   if (!facts.has_friction && !facts.has_normal_stiffness) {
     return by(false, "no point has friction or normal stiffness");
   }
-  if (facts.setting("nonlinearity") == "off") return by(false, "only the limits are asked for");
+  if (facts.setting("nonlinearity") == "off") return by(false, limits_alone);
   if (is_rough(facts.scene)) return by(true, "rough surfaces are springs under no load");
   if (facts.model == nullptr) return {undecided, later};
   if (!facts.scene.response) return {undecided, "no [response] is asked for"};
-  if (!facts.reach) return by(false, "only the limits are asked for");
+  if (!facts.reach) return by(false, limits_alone);
   const double slip = facts.reach->slip;
   const std::string text = fmt::format(
       "the linear limits drive a point to {} what holds it from slipping, opening or closing",
@@ -331,7 +332,8 @@ EffectDecision stability(const EffectFacts& facts) {
   const bool several = facts.scene.settings.harmonics.highest > 1;
   return by(
       facts.has_contact,
-      !facts.has_contact     ? "a linear scene is stable"
+      !facts.has_contact             ? "a linear scene is stable"
+      : is_linear_study(facts.scene) ? "the limits are linear, and stable"
       : in_time(facts.scene) ? "a motion that repeats with every period of the excitation is stable"
       : several ? "Hill's exponents of every point with several harmonics, where they can tell; in "
                   "scenes of few modes and points the multipliers of a period in time"
@@ -369,7 +371,7 @@ EffectDecision coexistence(const EffectFacts& facts) {
                    fmt::format("{} starts per frequency look for them", default_starts(scene)));
   }
   if (facts.model == nullptr) return decided(undecided, later);
-  if (!facts.reach) return decided(no, "only the limits are asked for");
+  if (!facts.reach) return decided(no, limits_alone);
   if (facts.reach->nearby <= effect_row("coexistence").threshold) {
     return decided(no,
                    "no resonance near by closes a gap, opens a contact or overcomes friction that "
@@ -488,6 +490,8 @@ EffectDecision decide(const EffectRow& row, const EffectFacts& facts) {
   const auto found = std::ranges::find(choosers, row.name, &Chooser::name);
   if (found == choosers.end()) throw std::out_of_range("no effect " + std::string(row.name));
   if (const EffectLeftOut* effect = left_out(facts.scene, row.name)) return without(*effect, facts);
+  const bool of_loads = std::ranges::find(effects_of_loads, row.name) != effects_of_loads.end();
+  if (of_loads && facts.has_contact && is_linear_study(facts.scene)) return by(false, limits_alone);
   return found->decide(facts);
 }
 

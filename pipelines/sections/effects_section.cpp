@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "pipelines/description/curve_request.hpp"
 #include "pipelines/description/effects_left_out.hpp"
 #include "pipelines/text/effect_table.hpp"
 
@@ -177,7 +178,7 @@ struct Contradiction {
   std::string_view effect, setting;
   bool (*is_there)(const SceneDescription&);
   std::string_view why;  ///< names the other key
-  OtherKey other;
+  OtherKey other{};
 };
 
 constexpr std::string_view no_normal_stiffness =
@@ -187,6 +188,13 @@ constexpr std::string_view without_normal_motion =
 
 constexpr std::string_view without_nonlinearity =
     "contradicts effects.nonlinearity = \"off\": then contact is a spring, or nothing";
+
+/// Of each of effects_of_loads.
+bool has_limits_alone(const SceneDescription& scene) {
+  return has_contact(scene) && is_linear_study(scene);
+}
+constexpr std::string_view without_load =
+    "needs contact under a load, and response.preload asks for the limits alone";
 
 constexpr std::array contradictions{
     Contradiction{"nonlinearity", "on", lacks_contact, "needs a [contact]"},
@@ -360,12 +368,16 @@ void read_effects(const SectionReader& s, const toml::table& given, SceneDescrip
     scene.effects.emplace_back(row.name, s.word(row.name, settings));
   }
   leave_out_effects(scene);
-  for (const auto& [effect, setting, is_there, why, other] : contradictions) {
-    if (setting_of(scene, effect) == setting && is_there(scene)) {
-      const std::string leaving = leaving_out(other, given, scene, s.file());
-      s.fail(effect, fmt::format("\"{}\" {}; {}effects.{}", setting, why, leaving, effect),
-             s.node(effect));
-    }
+  const auto refuse = [&](const Contradiction& found) {
+    const auto& [effect, setting, is_there, why, other] = found;
+    if (setting_of(scene, effect) != setting || !is_there(scene)) return;
+    const std::string leaving = leaving_out(other, given, scene, s.file());
+    s.fail(effect, fmt::format("\"{}\" {}; {}effects.{}", setting, why, leaving, effect),
+           s.node(effect));
+  };
+  std::ranges::for_each(contradictions, refuse);
+  for (const std::string_view effect : effects_of_loads) {
+    refuse({effect, "on", has_limits_alone, without_load, {"response.preload"}});
   }
   if (const std::string frames = setting_of(scene, "local_frames"); frames != "auto") {
     for (ContactDescription& contact : scene.contacts) contact.local_frames = frames == "on";

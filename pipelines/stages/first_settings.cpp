@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "pipelines/accuracy/models_left_out.hpp"
+#include "pipelines/description/curve_request.hpp"
 #include "pipelines/effects/curve_cost.hpp"
 
 namespace microslip::pipelines {

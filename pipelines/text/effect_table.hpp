@@ -79,6 +79,11 @@ inline constexpr std::array effect_table{
               1.0, "a solution that no sweep meets is not seen"},
 };
 
+/// Those of contact under a load: the linear limits have nothing of them.
+inline constexpr std::array<std::string_view, 7> effects_of_loads{
+    "nonlinearity", "separation",      "mean_coupling", "higher_harmonics",
+    "roughness",    "rate_dependence", "coexistence"};
+
 /// Motion of given modes along r is meant, unless it is rounding:
 /// their threshold of `second_direction`.
 inline constexpr double least_given_motion = 1e-9;

@@ -480,6 +480,21 @@ harmonics = 1
   }
 }
 
+TEST(Effects, OfTheLimitsAloneNothingIsSimulatedThatTheyDoNotHave) {
+  const SceneDescription scene = read_scene(MICROSLIP_SCENES "/chain_3dof_normal.toml",
+                                            {"response.preload=[\"free\", \"stuck\"]",
+                                             "response.harmonics=9", "response.search_starts=5"});
+  const ReducedModel model = model_in(scene);
+  for (const ReducedModel* known : {static_cast<const ReducedModel*>(nullptr), &model}) {
+    const std::vector<EffectRecord> effects = effects_of(scene, known);
+    for (const std::string_view name : effects_of_loads) {
+      EXPECT_EQ(effect_in(effects, name).simulated, Simulated::no) << name;
+    }
+    EXPECT_NE(effect_in(effects, "coexistence").reason.find("only the limits"), std::string::npos);
+  }
+  EXPECT_TRUE(model.effects.mean_coupling);  // not left out: there is nothing to put back
+}
+
 TEST(Effects, InTimeStabilityIsThatOfAMotionThatRepeats) {
   const auto reason = [](const Overrides& overrides) {
     return effect_in(effects_of(scene_of(overrides), nullptr), "stability").reason;

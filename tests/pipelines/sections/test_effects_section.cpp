@@ -261,6 +261,25 @@ TEST(EffectsSection, WhatOnlyNonlinearContactDoesIsRefusedWithoutIt) {
   }
 }
 
+TEST(EffectsSection, WhatOnlyContactUnderALoadDoesIsRefusedOfTheLimitsAlone) {
+  const Overrides limits{
+      "response.preload=[\"free\", \"stuck\"]", "response.harmonics=3",
+      "contact.friction_coefficient={ law = \"hyperbolic\", static = 0.4, rate = 1 }",
+      "contact.roughness={ law = \"cubic\", height = 1e-6 }"};
+  EXPECT_EQ(complaint(blade, limits), "");
+  for (const char* effect : {"nonlinearity", "separation", "mean_coupling", "higher_harmonics",
+                             "roughness", "rate_dependence", "coexistence"}) {
+    Overrides all = limits;
+    all.push_back(std::string("effects.") + effect + "=on");
+    const std::string message = complaint(blade, all);
+    EXPECT_NE(message.find(std::string("effects.") + effect + ": "), std::string::npos) << message;
+    EXPECT_NE(message.find("response.preload (--set response.preload="), std::string::npos)
+        << message;
+    all.front() = "response.preload=[\"free\", 100]";
+    EXPECT_EQ(complaint(blade, all), "") << effect;
+  }
+}
+
 // Which key to leave out, and where it stands: the scene or the command line has it.
 TEST(EffectsSection, TheOtherKeyIsToldWithItsPlace) {
   EXPECT_EQ(complaint(modal, {"effects.higher_harmonics=off"}),
