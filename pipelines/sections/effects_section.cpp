@@ -29,6 +29,14 @@ bool has_contact(const SceneDescription& scene) {
 
 bool lacks_contact(const SceneDescription& scene) { return !has_contact(scene); }
 
+bool lacks_friction(const SceneDescription& scene) {
+  if (const ModalModel* modal = modal_of(scene)) {
+    return std::ranges::none_of(modal->points, [](const auto& point) { return point.rubs(); });
+  }
+  return std::ranges::all_of(
+      scene.contacts, [](const ContactDescription& contact) { return contact.friction.is_zero(); });
+}
+
 bool has_constant_load(const SceneDescription& scene) {
   if (const ModalModel* modal = modal_of(scene)) {
     return std::ranges::none_of(modal->points,
@@ -90,7 +98,6 @@ bool lacks_motion_along_r(const SceneDescription& scene) {
 }
 
 bool has_harmonics(const SceneDescription& scene) { return scene.settings.harmonics.highest > 1; }
-bool lacks_harmonics(const SceneDescription& scene) { return !has_harmonics(scene); }
 bool is_smooth(const SceneDescription& scene) { return !is_rough(scene); }
 bool has_constant_friction(const SceneDescription& scene) { return !is_rate_dependent(scene); }
 bool lacks_area(const SceneDescription& scene) { return !has_area(scene); }
@@ -133,6 +140,10 @@ bool refuses_to_search(const SceneDescription& scene) {
 }
 bool goes_in_time(const SceneDescription& scene) {
   return scene.response && scene.response->method == ResponseDescription::Method::time;
+}
+
+bool lacks_harmonics(const SceneDescription& scene) {
+  return !has_harmonics(scene) && !goes_in_time(scene);
 }
 
 /// Curves beside the two limits.
@@ -247,6 +258,8 @@ constexpr std::array contradictions{
     Contradiction{"second_direction", "on", lacks_motion_along_r,
                   "needs modes that move along r: phi_w_1 … of modal.points (kinds chain and bar "
                   "have none)"},
+    Contradiction{"second_direction", "on", lacks_friction,
+                  "needs a friction_coefficient above 0 in [contact], or at a contact point"},
     Contradiction{"higher_harmonics", "on", lacks_harmonics, "needs response.harmonics above 1"},
     Contradiction{"higher_harmonics",
                   "on",

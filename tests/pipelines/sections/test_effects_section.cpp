@@ -174,6 +174,10 @@ INSTANTIATE_TEST_SUITE_P(
         Contradicting{chain, {"effects.mean_coupling=on"}, "mean_coupling", no_normal},
         Contradicting{modal, {"effects.second_direction=on"}, "second_direction", "phi_w_1"},
         Contradicting{chain, {"effects.second_direction=on"}, "second_direction", "along r"},
+        Contradicting{blade,
+                      {"effects.second_direction=on", "contact.friction_coefficient=0"},
+                      "second_direction",
+                      "friction_coefficient"},
         Contradicting{modal,
                       {"effects.higher_harmonics=on", "response.harmonics=1"},
                       "higher_harmonics",
@@ -360,6 +364,9 @@ TEST(EffectsSection, SettingsThatAgreeAreTaken) {
   EXPECT_EQ(
       complaint(chain, {"effects.nonlinearity=off", "response.preload=[\"free\", \"stuck\"]"}), "");
   EXPECT_EQ(complaint(modal, {"effects.coexistence=on", "response.search_starts=4"}), "");
+  EXPECT_EQ(complaint(modal, {"effects.higher_harmonics=on", "response.harmonics=1",
+                              "response.method=time"}),
+            "");
   EXPECT_EQ(complaint(modal, {"effects.wear=on", wear, "response.maps=[\"peak\"]"}), "");
   EXPECT_EQ(complaint(blade, {"effects.static_preload=off", "contact.preload=static", pressing}),
             "");
