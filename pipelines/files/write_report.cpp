@@ -366,24 +366,35 @@ std::string budget_text(const JsonEntry& run) {
   return text;
 }
 
-/// What having an effect that is left out would change; empty: not told.
+/// What having an effect that is left out would change.
 std::string bound_text(const JsonEntry& effect) {
-  if (!effect.has("bound")) return {};
-  if (!effect.at("bound").is_number()) return "; the highest peak is not found with it";
-  return fmt::format("; having it would change the highest peaks by {} at most",
-                     percent_text(effect.number("bound")));
+  if (!effect.has("bound")) return "–";
+  if (!effect.at("bound").is_number()) return "peak not found";
+  return percent_text(effect.number("bound"));
+}
+
+/// Of an indicator, or its limit.
+std::string number_text(const JsonEntry& effect, const char* key) {
+  if (!effect.has(key)) return "–";
+  const JsonEntry value = effect.at(key);
+  return value.is_number() ? fmt::format("{:.2g}", value.as_number()) : value.as_text();
 }
 
 /// Which effects were simulated, and why; empty: not told.
 std::string simulated_text(const JsonEntry& run) {
   if (run.list("effects").empty()) return {};
-  std::string text = "\n## Effects\n\n| effect | simulated | setting | why |\n|---|---|---|---|\n";
+  std::string text =
+      "\n## Effects\n\nBound: what having the effect changes the highest peaks by, at most.\n\n"
+      "| effect | simulated | setting | indicator | limit | bound | why |\n"
+      "|---|---|---|---:|---:|---:|---|\n";
   for (const JsonEntry& effect : run.list("effects")) {
     const char* simulated = !effect.has("simulated")    ? "not decided"
                             : effect.truth("simulated") ? "yes"
                                                         : "no";
-    text += fmt::format("| {} | {} | {} | {}{}", effect.text("name"), simulated,
-                        effect.text("setting"), effect.text("reason"), bound_text(effect));
+    text +=
+        fmt::format("| {} | {} | {} | {} | {} | {} | {}", effect.text("name"), simulated,
+                    effect.text("setting"), number_text(effect, "indicator"),
+                    number_text(effect, "threshold"), bound_text(effect), effect.text("reason"));
     if (effect.has("objection") && !effect.text("objection").empty()) {
       text += "; **but " + effect.text("objection") + "**";
     }

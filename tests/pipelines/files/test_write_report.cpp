@@ -114,10 +114,14 @@ TEST(WriteReport, ReportTellsWhichEffectsWereSimulatedAndWhatTheOthersWouldChang
   run.effects = {{.name = "normal_motion",
                   .setting = "auto",
                   .simulated = Simulated::yes,
-                  .reason = "a reason; switched on after the run"},
+                  .reason = "a reason; switched on after the run",
+                  .indicator = std::numeric_limits<double>::infinity(),
+                  .threshold = 1e-4},
                  {.name = "second_direction",
                   .setting = "off",
                   .reason = "it is",
+                  .indicator = 0.0172,
+                  .threshold = 0.03,
                   .bound = 0.031,
                   .objection = "it matters"},
                  {.name = "nonlinearity",
@@ -125,11 +129,11 @@ TEST(WriteReport, ReportTellsWhichEffectsWereSimulatedAndWhatTheOthersWouldChang
                   .simulated = Simulated::undecided,
                   .reason = "later"}};
   const std::string report = report_text(summary_json(run), {});
-  for (const char* row : {"| normal_motion | yes | auto | a reason; switched on after the run |",
-                          "| second_direction | no | off | it is; having it would change the "
-                          "highest peaks by 3.1 % at "
-                          "most; **but it matters** |",
-                          "| nonlinearity | not decided | auto | later |"}) {
+  for (const char* row : {"| normal_motion | yes | auto | infinite | 0.0001 | – | a reason; "
+                          "switched on after the run |",
+                          "| second_direction | no | off | 0.017 | 0.03 | 3.1 % | it is; **but it "
+                          "matters** |",
+                          "| nonlinearity | not decided | auto | – | – | – | later |"}) {
     EXPECT_NE(report.find(row), std::string::npos) << report;
   }
   run.effects.clear();

@@ -117,23 +117,22 @@ def told(value: Any, digits: int = 2) -> str:
 def effect_row(row: Mapping[str, Any]) -> list[str]:
     simulated = {True: "yes", False: "no"}.get(row.get("simulated"), "not decided")
     bound, why = row.get("bound"), escape(str(row.get("reason", "")))
-    if bound is not None:
-        why += f"; having it changes the peaks by {percent(bound) if is_number(bound) else 'what is not known'} at most"
     if row.get("objection"):
         why += f"; <b>but {escape(str(row['objection']))}</b>"
     measured = f'<span title="{escape(str(row.get("quantity", "")))}">{told(row.get("indicator"))}</span>'
     seconds = row.get("seconds")
     return [escape(str(row.get("name", "")).replace("_", " ")), simulated, escape(str(row.get("setting", ""))), measured,
-            told(row.get("threshold")), f"{number(seconds, 2)} s" if is_number(seconds) else "–", why]
+            told(row.get("threshold")), f"{number(seconds, 2)} s" if is_number(seconds) else "–",
+            "peak not found" if bound == "infinite" else percent(bound), why]
 
 
 def effects(run: Run, data: Data) -> str:
     rows = [effect_row(row) for row in run.summary.get("effects") or []]
-    head = ["effect", "simulated", "setting", "indicator", "limit", "cost", "why"]
-    return "" if not rows else (table(head, rows, (3, 4, 5), "effects") +
+    head = ["effect", "simulated", "setting", "indicator", "limit", "cost", "bound", "why"]
+    return "" if not rows else (table(head, rows, (3, 4, 5, 6), "effects") +
                      "<p class=note>Above its limit an indicator, told from the linear limits before the run, calls for the "
                      "effect; point at it to read what it is. Cost: what curves, their errors, a best value and its bracket take "
-                     "longer, forecast; –: not told apart.</p>")
+                     "longer, forecast; –: not told apart. Bound: what having the effect changes the highest peaks by, at most.</p>")
 
 
 def state_of(curve: Mapping[str, Any]) -> str:
