@@ -243,9 +243,11 @@ void tell_along(const std::vector<ErrorRow>& rows, double tolerance, EffectRecor
   const ErrorRow* most = largest_indicator(rows, effect.name);
   if (most == nullptr) return;
   effect.along = IndicatorAlong{most->effect, most->curve, most->where_hz};
-  effect.reason +=
-      fmt::format("; along the curves its indicator is {:.2g} at most ({} at {:.4g} Hz)",
-                  most->effect, most->curve, most->where_hz);
+  if (most->effect > 0.0) {
+    effect.reason +=
+        fmt::format("; along the curves its indicator is {:.2g} at most ({} at {:.4g} Hz)",
+                    most->effect, most->curve, most->where_hz);
+  }
   const ErrorRow* there = largest_row(rows, effect.name, amplitude_there_goal);
   if (there == nullptr) return;
   const std::string text = fmt::format(

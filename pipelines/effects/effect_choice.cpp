@@ -41,21 +41,28 @@ EffectDecision by(bool simulated, std::string reason, std::optional<double> indi
   return {simulated ? yes : no, std::move(reason), indicator};
 }
 
+/// Of what nothing in the scene gives: why.
+EffectDecision cannot(std::string reason) {
+  EffectDecision decision{no, std::move(reason)};
+  decision.can_be = false;
+  return decision;
+}
+
 /// "2.5 times", for a sentence that goes on with what.
 std::string times_text(double value) {
   return std::isinf(value) ? "any multiple of" : fmt::format("{:.2g} times", value);
 }
 
 EffectDecision nonlinearity(const EffectFacts& facts) {
-  if (!facts.has_contact) return by(false, "the scene has no contact");
+  if (!facts.has_contact) return cannot("the scene has no contact");
   if (!facts.has_friction && !facts.has_normal_stiffness) {
-    return by(false, "no point has friction or normal stiffness");
+    return cannot("no point has friction or normal stiffness");
   }
-  if (facts.setting("nonlinearity") == "off") return by(false, limits_alone);
+  if (facts.setting("nonlinearity") == "off") return cannot(limits_alone);
   if (is_rough(facts.scene)) return by(true, "rough surfaces are springs under no load");
   if (facts.model == nullptr) return {undecided, later};
   if (!facts.scene.response) return {undecided, "no [response] is asked for"};
-  if (!facts.reach) return by(false, limits_alone);
+  if (!facts.reach) return cannot(limits_alone);
   const double slip = facts.reach->slip;
   const std::string text = fmt::format(
       "the linear limits drive a point to {} what holds it from slipping, opening or closing",
@@ -87,7 +94,7 @@ EffectDecision normal_motion(const EffectFacts& facts) {
     if (facts.reach) decision.indicator = facts.reach->load;
     return decision;
   }
-  if (!facts.has_normal_stiffness) return by(false, "no contact has normal stiffness");
+  if (!facts.has_normal_stiffness) return cannot("no contact has normal stiffness");
   if (facts.model == nullptr) return {undecided, later};
   if (!facts.reach) return by(true, "normal springs belong to the stuck limit");
   const auto is_on = [&](std::initializer_list<std::string_view> names) {  // parts of it as well
@@ -182,11 +189,14 @@ bool has_both_directions(const SceneDescription& scene, double motion_ratio) {
 }
 
 EffectDecision second_direction(const EffectFacts& facts) {
-  if (!facts.has_contact) return by(false, "the scene has no contact");
+  if (!facts.has_contact) return cannot("the scene has no contact");
   const bool is_open = facts.scene.settings.second_direction == Discretisation::Choice::automatic;
   if (facts.model == nullptr && is_open) return {undecided, later};
   if (facts.model == nullptr) {
     return by(facts.both_directions, std::string("how much the patch moves along r is ") + later);
+  }
+  if (!facts.both_directions && !can_be_along_r(facts)) {
+    return cannot("nothing that rubs can move along r");
   }
   return {facts.both_directions ? yes : no,
           fmt::format("motion along r is {} of that along p in the linear limits",
@@ -217,8 +227,7 @@ EffectDecision higher_harmonics(const EffectFacts& facts) {
 }
 
 EffectDecision roughness(const EffectFacts& facts) {
-  if (!is_rough(facts.scene))
-    return by(false, "no contact.roughness is given: surfaces are smooth");
+  if (!is_rough(facts.scene)) return cannot("no contact.roughness is given: surfaces are smooth");
   EffectDecision decision = by(true, "contact.roughness is given");
   if (has_load(facts)) decision.indicator = roughness_size(*facts.model, facts.scene);
   return decision;
@@ -226,7 +235,7 @@ EffectDecision roughness(const EffectFacts& facts) {
 
 EffectDecision rate_dependence(const EffectFacts& facts) {
   if (!is_rate_dependent(facts.scene)) {
-    return by(false, "no law of the slip speed is given: the friction coefficient is constant");
+    return cannot("no law of the slip speed is given: the friction coefficient is constant");
   }
   EffectDecision decision = by(true, "the friction coefficient follows the slip speed");
   if (has_load(facts)) decision.indicator = friction_change(*facts.model, facts.scene);
@@ -234,8 +243,8 @@ EffectDecision rate_dependence(const EffectFacts& facts) {
 }
 
 EffectDecision moments(const EffectFacts& facts) {
-  if (!facts.has_contact) return by(false, "the scene has no contact");
-  if (!has_area(facts.scene)) return by(false, "every contact is a point");
+  if (!facts.has_contact) return cannot("the scene has no contact");
+  if (!has_area(facts.scene)) return cannot("every contact is a point");
   EffectDecision decision =
       by(true, "contact acts on an area: points at several places share the load");
   if (facts.has_range()) decision.indicator = tilt_size(*facts.model, facts.scene);
@@ -245,9 +254,10 @@ EffectDecision moments(const EffectFacts& facts) {
 EffectDecision residual(const EffectFacts& facts) {
   const ResidualKind kind = facts.scene.settings.basis.residual;
   const bool modal = std::holds_alternative<ModalModel>(facts.scene.model);
-  if (!facts.has_contact) return by(false, "the scene has no contact");
+  if (!facts.has_contact) return cannot("the scene has no contact");
   if (kind == ResidualKind::none) {
-    return by(false, modal ? "the given stiffness is used as it is" : "modes.residual = \"none\"");
+    return modal ? cannot("the given stiffness is used as it is")
+                 : by(false, "modes.residual = \"none\"");
   }
   EffectDecision decision =
       by(true, kind == ResidualKind::attachment
@@ -278,9 +288,9 @@ std::vector<FaceShape> face_shapes(const EffectFacts& facts) {
 }
 
 EffectDecision local_frames(const EffectFacts& facts) {
-  if (!facts.has_contact) return by(false, "the scene has no contact");
+  if (!facts.has_contact) return cannot("the scene has no contact");
   if (facts.scene.contacts.empty()) {
-    return by(false, "contact points have the directions of the modes given for them");
+    return cannot("contact points have the directions of the modes given for them");
   }
   const std::vector<FaceShape> faces = face_shapes(facts);
   const std::string setting = facts.setting("local_frames");
@@ -298,16 +308,16 @@ EffectDecision local_frames(const EffectFacts& facts) {
 }
 
 EffectDecision static_preload(const EffectFacts& facts) {
-  if (!facts.has_contact) return by(false, "the scene has no contact");
+  if (!facts.has_contact) return cannot("the scene has no contact");
   if (has_static_preload(facts.scene)) {
     return by(true, "contact.preload = \"static\": pressure at rest is solved for, gaps and all",
               facts.model != nullptr ? facts.model->static_variation : std::nullopt);
   }
   const bool given = std::ranges::any_of(
       facts.scene.contacts, [](const auto& contact) { return contact.preload_field.has_value(); });
-  return by(false, facts.scene.contacts.empty() ? "pressure at rest is given with the points"
-                   : given                      ? "pressure at rest is contact.preload_field"
-                                                : "pressure at rest is uniform");
+  return cannot(facts.scene.contacts.empty() ? "pressure at rest is given with the points"
+                : given                      ? "pressure at rest is contact.preload_field"
+                                             : "pressure at rest is uniform");
 }
 
 /// Square of the speed over the lowest natural frequency.
@@ -319,10 +329,10 @@ double speed_size(const EffectFacts& facts, const fem::Rotation& rotation) {
 EffectDecision centrifugal(const EffectFacts& facts) {
   if (std::holds_alternative<ModalModel>(facts.scene.model) ||
       given_modes(facts.scene) != nullptr) {
-    return by(false, "modes are given, with or without rotation");
+    return cannot("modes are given, with or without rotation");
   }
   const auto& rotation = facts.scene.rotation;
-  if (!rotation || rotation->speed == 0.0) return by(false, "no static.speed is given");
+  if (!rotation || rotation->speed == 0.0) return cannot("no static.speed is given");
   EffectDecision decision = by(true, "the structure rotates");
   if (facts.model != nullptr) decision.indicator = speed_size(facts, *rotation);
   return decision;
@@ -346,7 +356,7 @@ EffectDecision maps(const EffectFacts& facts) {
 }
 
 EffectDecision wear(const EffectFacts& facts) {
-  if (!has_wear(facts.scene)) return by(false, "no contact.wear_coefficient is given");
+  if (!has_wear(facts.scene)) return cannot("no contact.wear_coefficient is given");
   const bool drawn = maps(facts).simulated == yes;
   return by(drawn, drawn ? "depth per period by Archard's law"
                          : "response.maps asks for no map to show it in");
@@ -474,6 +484,11 @@ EffectFacts effect_facts(const SceneDescription& scene, const ReducedModel* mode
   return facts;
 }
 
+bool can_be_along_r(const EffectFacts& facts) {
+  const bool still = facts.model != nullptr && !can_rub_along_r(*facts.model);
+  return facts.has_friction && can_move_along_r(facts.scene) && !still;
+}
+
 double least_motion_along_r(const SceneDescription& scene) {
   return scene.contacts.empty() ? least_given_motion : effect_row("second_direction").threshold;
 }
@@ -491,7 +506,7 @@ EffectDecision decide(const EffectRow& row, const EffectFacts& facts) {
   if (found == choosers.end()) throw std::out_of_range("no effect " + std::string(row.name));
   if (const EffectLeftOut* effect = left_out(facts.scene, row.name)) return without(*effect, facts);
   const bool of_loads = std::ranges::find(effects_of_loads, row.name) != effects_of_loads.end();
-  if (of_loads && facts.has_contact && is_linear_study(facts.scene)) return by(false, limits_alone);
+  if (of_loads && facts.has_contact && is_linear_study(facts.scene)) return cannot(limits_alone);
   return found->decide(facts);
 }
 

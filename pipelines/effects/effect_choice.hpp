@@ -42,10 +42,14 @@ struct EffectDecision {
   std::optional<double> indicator{};
   std::optional<double> threshold{};  ///< where it is not that of the table
   std::string refusal{};              ///< why the setting cannot be obeyed; empty: it is
+  bool can_be = true;                 ///< false: nothing in the scene gives it, nothing is lost
 };
 
 /// Of one row. @throws std::out_of_range  no such effect.
 [[nodiscard]] EffectDecision decide(const EffectRow& row, const EffectFacts& facts);
+
+/// Whether anything that rubs can move along r, as far as is known.
+[[nodiscard]] bool can_be_along_r(const EffectFacts& facts);
 
 /// Motion along r over that along p that calls for friction there.
 [[nodiscard]] double least_motion_along_r(const SceneDescription& scene);

@@ -36,10 +36,7 @@ bool takes_rules(const SceneDescription& scene) {
 
 /// What a scene lacks for some effects is no question of seconds.
 bool can_be(std::string_view name, const EffectFacts& facts) {
-  if (name == "second_direction") {
-    const bool still = facts.model != nullptr && !can_rub_along_r(*facts.model);
-    return facts.has_friction && can_move_along_r(facts.scene) && !still;
-  }
+  if (name == "second_direction") return can_be_along_r(facts);
   if (name == "roughness") return facts.has_normal_stiffness && takes_rules(facts.scene);
   if (name == "rate_dependence") return facts.has_friction && takes_rules(facts.scene);
   if (name == "moments") return has_area(facts.scene);
@@ -88,9 +85,11 @@ std::optional<double> cost_of(std::string_view name, const EffectFacts& facts) {
          response_seconds(facts.scene, without).total();
 }
 
+constexpr const char* not_forecast =
+    "; no cost is told: a motion in time is not forecast effect by effect";
+
 /// Of an effect that has no cost in the table though a curve is asked for.
 std::string why_no_cost(std::string_view name, const EffectFacts& facts) {
-  if (in_time(facts.scene)) return "a motion in time is not forecast effect by effect";
   if (!can_be(name, facts)) return "the scene cannot have it";
   struct Why {
     std::string_view name;
@@ -139,11 +138,15 @@ EffectRecord record_of(const EffectRow& row, const EffectFacts& facts) {
   if (effect.indicator && std::isfinite(row.threshold)) {
     effect.threshold = decision.threshold.value_or(row.threshold);
   }
-  if (effect.simulated == no && facts.has_contact) {
+  const bool can_have = facts.has_contact && decision.can_be;
+  if (effect.simulated == no && can_have) {
     effect.reason += fmt::format("; without it {}", row.lost);
   }
   effect.seconds = cost_of(row.name, facts);
-  if (!effect.seconds && effect.simulated == no && facts.has_contact && facts.scene.response) {
+  if (!decision.can_be && effect.seconds <= 0.0) effect.seconds.reset();  // nothing to be saved
+  if (in_time(facts.scene)) {                                             // of all rows, told once
+    if (row.name == "nonlinearity") effect.reason += not_forecast;
+  } else if (!effect.seconds && effect.simulated == no && can_have && facts.scene.response) {
     effect.reason += fmt::format("; no cost is told: {}", why_no_cost(row.name, facts));
   }
   effect.refusal = std::move(decision.refusal);

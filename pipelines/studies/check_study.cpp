@@ -114,7 +114,7 @@ void describe(const Forecast& forecast, bool has_curves, std::ostream& out) {
   }
   if (has_curves) parts.push_back(text_of(forecast.response));
   const auto& [maps, plots] = forecast.pictures;
-  if (maps > 0.0) parts.push_back(fmt::format("maps {:.2g} s", maps));
+  if (maps > 0.0) parts.push_back(fmt::format("maps and motion at the peaks {:.2g} s", maps));
   if (plots > 0.0) parts.push_back(fmt::format("plots {:.2g} s", plots));
   if (forecast.response_along_r) {
     parts.push_back("if friction along r is called for " + text_of(*forecast.response_along_r));

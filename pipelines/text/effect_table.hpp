@@ -41,8 +41,12 @@ inline constexpr std::array effect_table{
     EffectRow{"second_direction", "friction along r as well", "motion along r over that along p",
               0.03, "friction along r neither holds nor takes energy"},
     EffectRow{"higher_harmonics", "harmonics above the first",
-              "answer of the patch at k times the frequency over that at it, over k^2", 5e-3,
-              "what contact drives at multiples of the frequency, seen to change peaks by a third"},
+              "motion of the patch by a force at k times the frequency over that by the same force "
+              "at the "
+              "frequency, divided by k^2",
+              5e-3,
+              "what contact drives at multiples of the frequency is missing, seen to change peaks "
+              "by a third"},
     EffectRow{"roughness", "rough surfaces", "height of the roughness over the compression at rest",
               0.1, "surfaces are as stiff under a small load as in full contact"},
     EffectRow{"rate_dependence", "friction coefficient by slip speed",

@@ -130,5 +130,13 @@ TEST(AlongCurve, AnIndicatorIsToldAndIsNoBound) {
   EXPECT_EQ(effects[0].objection, "");
 }
 
+TEST(AlongCurve, AnIndicatorOfZeroTakesNoWords) {
+  std::vector<EffectRecord> effects{{"second_direction", "auto", Simulated::no, "asked for"}};
+  tell_bounds({{"a", largest_indicator_goal, "second_direction", 0.0, ErrorKind::estimated, 0.0}},
+              0.02, effects);
+  EXPECT_EQ(effects[0].reason, "asked for");
+  EXPECT_TRUE(effects[0].along.has_value());
+}
+
 }  // namespace
 }  // namespace microslip::pipelines::test_along_curve

@@ -164,6 +164,32 @@ TEST(Effects, WhatASceneCannotHaveHasNoCost) {
   EXPECT_FALSE(cost(scene_of({"modal.points[0].normal_stiffness=0"}), "roughness").has_value());
 }
 
+TEST(Effects, WhatASceneCannotHaveHasAShortReason) {
+  const SceneDescription scene = read_scene(MICROSLIP_SCENES "/oscillator_1dof.toml", {});
+  const ReducedModel model = model_in(scene);
+  int n_forecast = 0;  // told of, of a motion in time
+  for (const EffectRecord& effect : effects_of(scene, &model)) {
+    const bool lacks = effect.name != "coexistence" && effect.simulated == Simulated::no;
+    EXPECT_EQ(effect.reason.find("without it") == std::string::npos,
+              lacks || effect.simulated == Simulated::yes)
+        << effect.name << ": " << effect.reason;
+    if (effect.reason.find("no cost is told") != std::string::npos) ++n_forecast;
+  }
+  EXPECT_EQ(n_forecast, 1);
+}
+
+TEST(Effects, NothingIsSavedByALawThatNobodyGives) {
+  const auto cost = [](const Overrides& overrides) {
+    const SceneDescription scene = read_scene(MICROSLIP_SCENES "/block_rough.toml", overrides);
+    const ReducedModel model = model_in(scene);
+    return effect_in(effects_of(scene, &model), "rate_dependence").seconds;
+  };
+  EXPECT_FALSE(cost({}).has_value());
+  EXPECT_TRUE(
+      cost({"contact.friction_coefficient={ law = \"hyperbolic\", static = 0.4, rate = 1 }"})
+          .has_value());
+}
+
 TEST(Effects, WhatIsAskedForCostsNoMoreThanTheCurvesThatHaveIt) {
   for (const char* harmonics : {"response.harmonics=5", "response.harmonics=auto"}) {
     const SceneDescription scene = scene_of({harmonics});
