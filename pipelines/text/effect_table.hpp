@@ -88,9 +88,9 @@ inline constexpr std::array<std::string_view, 7> effects_of_loads{
     "nonlinearity", "separation",      "mean_coupling", "higher_harmonics",
     "roughness",    "rate_dependence", "coexistence"};
 
-/// Motion of given modes along r is meant, unless it is rounding:
-/// their threshold of `second_direction`.
-inline constexpr double least_given_motion = 1e-9;
+/// Motion of given modes along r is meant: their threshold of `second_direction`. Below it friction
+/// there does 5e-9 of the work, at four times the seconds of a curve.
+inline constexpr double least_given_motion = 1e-4;
 
 /// Change of a highest peak by an effect left out from which a run warns of it.
 inline constexpr double worth_a_warning = 0.02;

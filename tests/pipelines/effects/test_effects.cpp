@@ -576,6 +576,18 @@ TEST(Effects, TheTableInTheDocumentationIsTheOneOfTheProgram) {
   }
 }
 
+// Friction along r takes four times as long; what it does here no bar can tell.
+TEST(Effects, MotionAlongRThatDoesNothingIsLeftOutOfGivenModes) {
+  const auto told = [](const std::string& across) {
+    const SceneDescription scene = scene_of({"modal.points[0].phi_w_1=" + across});
+    const ReducedModel model = model_in(scene);
+    return effect_in(effects_of(scene, &model), "second_direction");
+  };
+  EXPECT_EQ(told("2e-4").simulated, Simulated::yes) << told("2e-4").reason;
+  EXPECT_EQ(told("5e-5").simulated, Simulated::no) << told("5e-5").reason;
+  EXPECT_NEAR(told("5e-5").indicator.value_or(0.0), 5e-5, 1e-9);
+}
+
 // A mode along p, and a weakly excited one along r: its peak is small, and its motion is all along
 // r.
 TEST(Effects, APeakThatMovesAlongRCountsHoweverSmallBesideAnother) {
