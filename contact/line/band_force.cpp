@@ -13,12 +13,15 @@ BandWork band_work(SliderBand& band, const BandCycle& cycle) {
   for (const BandPiece& piece : cycle.pieces) {
     if (piece.state == ContactState::separated || piece.state == ContactState::stick) continue;
     const double sign = piece.slip_sign();
-    visit_piece(band, piece, band.n_harmonics(), BandIntegrals::forces_and_slip,
-                [&](const BandInstant& now, double friction, const auto&, double weight) {
-                  const double way = weight * std::abs(now.velocity - sign * now.reach_rate);
-                  work.slip_distance += way;
-                  work.normal_slip += way * now.surface.load;
-                  work.dissipated_energy += weight * band_slip_power(piece, now, friction);
+    visit_piece(band, piece, {band.n_harmonics(), 0}, BandIntegrals::forces_and_slip,
+                [&](const BandPanelNodes& panel) {
+                  const BandInstants& now = panel.instants;
+                  const BandPoints way =
+                      panel.weight *
+                      (points_of(now.motion.velocity) - sign * points_of(now.reach_rate)).abs();
+                  work.slip_distance += way.sum();
+                  work.normal_slip += (way * points_of(now.load)).sum();
+                  work.dissipated_energy += (panel.weight * panel.slip_power).sum();
                 });
   }
   return work;
@@ -26,23 +29,27 @@ BandWork band_work(SliderBand& band, const BandCycle& cycle) {
 
 Harmonics band_force(SliderBand& band, const BandCycle& cycle, int n_harmonics) {
   Harmonics force(n_harmonics, n_point_signals);
-  const Eigen::Index n = force.rows().rows();
+  const auto n = static_cast<int>(force.rows().rows());
+  Eigen::Matrix<double, n_band_nodes, 4> weighted;
+  weighted.setZero();
+  Eigen::Matrix4Xd sums = Eigen::Matrix4Xd::Zero(4, n);
   for (const BandPiece& piece : cycle.pieces) {
     if (piece.state == ContactState::separated) continue;
-    visit_piece(band, piece, n_harmonics, BandIntegrals::forces,
-                [&](const BandInstant& now, double friction, const auto& basis, double weight) {
-                  force.rows().col(0) += (weight * friction) * basis.head(n);
-                  force.rows().col(1) += (weight * now.surface.load) * basis.head(n);
+    visit_piece(band, piece, {n_harmonics, n_harmonics}, BandIntegrals::forces,
+                [&](const BandPanelNodes& panel) {
+                  weighted.col(0) = panel.weight * panel.friction;
+                  weighted.col(1) = panel.weight * points_of(panel.instants.load);
+                  band_kernels().sums(n, 1, panel.basis.data(), weighted.data(), 4, sums.data());
                 });
   }
-  force.rows() /= std::numbers::pi;
+  force.rows().leftCols(2) = sums.topRows(2).transpose() / std::numbers::pi;
   force.rows().row(0) *= 0.5;
   return force;
 }
 
 void BandTraction::set(SliderBand& band, const BandCycle& cycle, PointTraction& result) {
   const Eigen::Index n = 2 * band.n_harmonics() + 1;
-  sums_.setZero(2 * n - 1, n_sums);
+  sums_.setZero(n_sums, 2 * n - 1);
   virgin_.setZero(n);
   frequency_memory_.setZero(n);
   memory_by_u_.setZero(n, n);
@@ -56,46 +63,60 @@ void BandTraction::set(SliderBand& band, const BandCycle& cycle, PointTraction& 
   write(result);
 }
 
-void BandTraction::add_piece(SliderBand& band, const BandPiece& piece) {
-  piece_.setZero(sums_.rows(), n_sums);
-  const double k_u = band.law().first_stiffness();
-  const bool rate_dependent = band.law().is_rate_dependent();
-  const bool sticks = piece.state == ContactState::stick;
+void BandTraction::weigh(const SliderBand& band, const BandPiece& piece,
+                         const BandPanelNodes& panel) {
+  const BandInstants& now = panel.instants;
+  const BandPoints load_change = points_of(now.load_by_approach);
+  const auto put = [&](Sum sum, const BandPoints& values) {
+    weighted_.col(sum) = panel.weight * values;
+  };
+  put(friction, panel.friction);
+  put(load, points_of(now.load));
+  put(load_by_v, load_change);
+  if (piece.state == ContactState::stick) {
+    if (!band.has_spring()) return;
+    const double k_u = band.law().first_stiffness();
+    put(by_u, k_u * points_of(now.stiffness_ratio));
+    put(by_v, k_u * points_of(now.stiffness_ratio_by_approach) *
+                  (points_of(now.motion.position) - piece.slider));
+    return;
+  }
   const double sign = piece.slip_sign();
-  Eigen::Matrix<double, 1, n_sums> row = Eigen::Matrix<double, 1, n_sums>::Zero();
-  visit_piece(band, piece, band.n_harmonics(), BandIntegrals::forces,
-              [&](const BandInstant& now, double force, const auto& basis, double weight) {
-                const SurfaceState& y = now.surface;
-                row[friction] = force;
-                row[load] = y.load;
-                row[load_by_v] = y.load_by_approach;
-                if (sticks && band.has_spring()) {
-                  row[by_u] = k_u * y.stiffness_ratio;
-                  row[by_v] = k_u * y.stiffness_ratio_by_approach * (now.position - piece.slider);
-                } else if (!sticks) {
-                  row[by_v] = sign * y.friction_coefficient * y.load_by_approach;
-                }
-                if (!sticks && rate_dependent) {
-                  const double by_rate = sign * y.load * y.friction_coefficient_by_rate;
-                  row[by_velocity] = by_rate * band.frequency() * std::copysign(1.0, now.velocity);
-                  row[by_frequency] = by_rate * std::abs(now.velocity);
-                }
-                for (Eigen::Index j = 0; j < n_sums; ++j) {
-                  if (row[j] != 0.0) piece_.col(j) += (weight * row[j]) * basis;
-                }
-              });
+  put(by_v, sign * points_of(now.friction_coefficient) * load_change);
+  if (!band.law().is_rate_dependent()) return;
+  const BandPoints by_rate =
+      sign * points_of(now.load) * points_of(now.friction_coefficient_by_rate);
+  const BandPoints velocity = points_of(now.motion.velocity);
+  put(by_velocity, by_rate * band.frequency() * (velocity < 0.0).select(-1.0, BandPoints::Ones()));
+  put(by_frequency, by_rate * velocity.abs());
+}
+
+void BandTraction::add_piece(SliderBand& band, const BandPiece& piece) {
+  const int H = band.n_harmonics();
+  const bool sticks = piece.state == ContactState::stick;
+  const bool remembers = sticks && band.has_spring();
+  Sums& sums = remembers ? piece_ : sums_;
+  if (remembers) piece_.setZero(n_sums, sums_.cols());
+  weighted_.setZero();
+  const bool all = remembers || (!sticks && band.law().is_rate_dependent());
+  visit_piece(band, piece, {H, 2 * H}, BandIntegrals::forces, [&](const BandPanelNodes& panel) {
+    weigh(band, piece, panel);
+    band_kernels().sums(static_cast<int>(sums.cols()), all ? 2 : 1, panel.basis.data(),
+                        weighted_.data(), n_sums, sums.data());
+  });
+  if (!remembers) return;
   sums_ += piece_;
-  if (sticks && band.has_spring()) add_memory(band, piece);
+  add_memory(band, piece);
 }
 
 void BandTraction::add_memory(SliderBand& band, const BandPiece& piece) {
-  const auto held = piece_.col(by_u).head(virgin_.size());
+  const Eigen::VectorXd held = piece_.row(by_u).head(virgin_.size()).transpose();
   if (piece.origin == SliderOrigin::virgin) {
     virgin_ += held;
     return;
   }
   const BandInstant now = piece.stood ? band.at_turn(piece.memory.phase()) : band.at(piece.memory);
-  const Eigen::VectorXd basis = band.basis().head(virgin_.size());
+  const Eigen::VectorXd& basis = band.basis();
   basis_rate(basis, basis_rate_);
   double from_velocity = 0.0;
   double from_v = 0.0;
@@ -124,9 +145,9 @@ void BandTraction::write(PointTraction& result) {
   result.frequency_derivative.setZero(n_point_signals * n);
   const auto norm = [](Eigen::Index i) { return (i == 0 ? 0.5 : 1.0) / std::numbers::pi; };
   for (Eigen::Index i = 0; i < n; ++i) {
-    result.force.rows()(i, 0) = norm(i) * sums_(i, friction);
-    result.force.rows()(i, 1) = norm(i) * sums_(i, load);
-    result.frequency_derivative[3 * i] = norm(i) * (sums_(i, by_frequency) + frequency_memory_[i]);
+    result.force.rows()(i, 0) = norm(i) * sums_(friction, i);
+    result.force.rows()(i, 1) = norm(i) * sums_(load, i);
+    result.frequency_derivative[3 * i] = norm(i) * (sums_(by_frequency, i) + frequency_memory_[i]);
     for (Eigen::Index j = 1; j < n; ++j)
       result.jacobian(3 * i, 3 * j) = norm(i) * memory_by_u_(i, j);
     result.jacobian(3 * i, 0) = norm(i) * virgin_[i];
@@ -136,7 +157,8 @@ void BandTraction::write(PointTraction& result) {
   }
   moments_.reset(2 * H);
   const auto add = [&](Sum sum, Eigen::Index row, Eigen::Index column, Eigen::Index first) {
-    moments_.set_sums(sums_.col(sum).data());
+    of_one_ = sums_.row(sum).transpose();
+    moments_.set_sums(of_one_.data());
     for (Eigen::Index i = 0; i < n; ++i) {
       for (Eigen::Index j = first; j < n; ++j) {
         result.jacobian(3 * i + row, 3 * j + column) +=
@@ -147,8 +169,9 @@ void BandTraction::write(PointTraction& result) {
   add(load_by_v, 1, 1, 0);
   add(by_u, 0, 0, 1);
   add(by_v, 0, 1, 0);
-  if (sums_.col(by_velocity).isZero(0.0)) return;
-  moments_.set_sums(sums_.col(by_velocity).data());
+  if (sums_.row(by_velocity).isZero(0.0)) return;
+  of_one_ = sums_.row(by_velocity).transpose();
+  moments_.set_sums(of_one_.data());
   for (int i = 0; i < static_cast<int>(n); ++i) {
     for (int j = 1; j < static_cast<int>(n); ++j) {
       const int h = (j + 1) / 2;  // the derivative of the basis is the basis, turned and scaled

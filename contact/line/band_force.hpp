@@ -21,6 +21,7 @@
 
 #include <Eigen/Core>
 
+#include "contact/line/band_quadrature.hpp"
 #include "contact/line/band_walk.hpp"
 #include "contact/numerics/trigonometric_moments.hpp"
 #include "contact/point/point_method.hpp"
@@ -45,25 +46,30 @@ class BandTraction {
   void set(SliderBand& band, const BandCycle& cycle, PointTraction& result);
 
  private:
-  /// Weighted sums over the nodes; one column each.
+  /// Weighted sums over the nodes; one row each. Slip under a constant coefficient has the first
+  /// four alone.
   enum Sum : Eigen::Index {
     friction,
     load,
     load_by_v,
-    by_u,          // ∂f/∂u
     by_v,          // ∂f/∂v
+    by_u,          // ∂f/∂u
     by_velocity,   // ∂f/∂u'
     by_frequency,  // ∂f/∂ω
-    n_sums
+    n_sums = 8     // in two vectors of four
   };
-  using Sums = Eigen::Matrix<double, Eigen::Dynamic, n_sums>;
+  using Sums = Eigen::Matrix<double, n_sums, Eigen::Dynamic>;
 
+  /// @param panel  of the piece; what it does not have stays as it is.
+  void weigh(const SliderBand& band, const BandPiece& piece, const BandPanelNodes& panel);
   void add_piece(SliderBand& band, const BandPiece& piece);
   void add_memory(SliderBand& band, const BandPiece& piece);
   void write(PointTraction& result);
 
+  Eigen::Matrix<double, n_band_nodes, n_sums> weighted_;
   Sums piece_;  // with the functions of the basis up to harmonic 2H
   Sums sums_;
+  Eigen::VectorXd of_one_;
   Eigen::VectorXd basis_rate_;
   Eigen::VectorXd virgin_;  // ∂f/∂u₀
   Eigen::VectorXd frequency_memory_;

@@ -28,7 +28,12 @@ void BandLayers::set(const Eigen::VectorXd& u, const FrictionLaw& friction, doub
   if (!friction.is_rate_dependent()) return;
   const int H = static_cast<int>(u.size() / 2);
   rate_.reset(H);
-  for (int h = 1; h <= H; ++h) rate_.set(h, -h * u[2 * h], h * u[2 * h - 1]);
+  rate_coefficients_.assign(static_cast<std::size_t>(2 * H + 1), 0.0);
+  for (int h = 1; h <= H; ++h) {
+    rate_.set(h, -h * u[2 * h], h * u[2 * h - 1]);
+    rate_coefficients_[static_cast<std::size_t>(2 * h - 1)] = rate_.sin(h);
+    rate_coefficients_[static_cast<std::size_t>(2 * h)] = rate_.cos(h);
+  }
   find_sign_changes(rate_, changes_);
   for (const SignChange& change : changes_) stands_.push_back(change.phase);
   friction.grades(frequency * rate_.bound(0), grades_);
@@ -102,6 +107,19 @@ BandPlace BandLayers::place(double phase) const {
 
 bool BandLayers::is_near(const BandPlace& place) const {
   return place.anchor.layered && std::abs(place.offset) * rate_.degree() < 0.25;
+}
+
+void BandLayers::correct(const BandAnchor& anchor, const BandValues& offsets,
+                         BandValues& velocity) const {
+  const auto near = [&](double offset) { return is_near({anchor, offset}); };
+  if (!anchor.layered || std::ranges::none_of(offsets, near)) return;
+  BandValues closer;
+  band_kernels().layer(rate_coefficients_.data(), rate_.degree(),
+                       {std::sin(anchor.phase), std::cos(anchor.phase)}, anchor.velocity,
+                       offsets.data(), closer.data());
+  for (std::size_t i = 0; i < offsets.size(); ++i) {
+    if (near(offsets[i])) velocity[i] = closer[i];
+  }
 }
 
 double BandLayers::velocity(const BandPlace& place) const {

@@ -16,6 +16,7 @@
 
 #include <Eigen/Core>
 
+#include "contact/line/band_kernels.hpp"
 #include "contact/numerics/sign_changes.hpp"
 #include "contact/numerics/trigonometric_polynomial.hpp"
 #include "contact/surface/friction_law.hpp"
@@ -52,6 +53,8 @@ class BandLayers {
   [[nodiscard]] bool is_near(const BandPlace& place) const;
   /// (1).
   [[nodiscard]] double velocity(const BandPlace& place) const;
+  /// (1) in the place of u' at those of twelve offsets from one anchor where it is the better way.
+  void correct(const BandAnchor& anchor, const BandValues& offsets, BandValues& velocity) const;
 
  private:
   void find_anchors(double slowest);
@@ -59,6 +62,7 @@ class BandLayers {
   [[nodiscard]] double offset_of(const BandAnchor& anchor, double length, double speed) const;
 
   TrigonometricPolynomial rate_, second_;  // u', u''
+  std::vector<double> rate_coefficients_;  // of u': 0, sin, cos, sin 2, …
   std::vector<double> stands_;
   std::vector<BandAnchor> turning_;  // zeros of u' and u'', in order
   std::vector<BandAnchor> anchors_;

@@ -10,7 +10,7 @@ BandPanel make_panel() {
   BandPanel panel;
   for (int i = 0; i < n_band_nodes; ++i) {
     const double x = 2.0 * rule.nodes[i] - 1.0;
-    panel.node[i] = x;
+    panel.node[static_cast<std::size_t>(i)] = x;
     panel.weight[i] = 2.0 * rule.weights[i];
     for (int k = 0; k < 4; ++k) {
       const double counted = std::pow(0.1, 3 - k);
@@ -35,10 +35,6 @@ double band_friction(const SliderBand& band, const BandPiece& piece, const BandI
     return piece.slip_sign() * y.friction_coefficient * y.load;
   }
   return band.law().first_stiffness() * y.stiffness_ratio * (now.position - piece.slider);
-}
-
-double band_slip_power(const BandPiece& piece, const BandInstant& now, double friction) {
-  return std::abs(friction) * std::abs(now.velocity - piece.slip_sign() * now.reach_rate);
 }
 
 }  // namespace microslip::contact

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -15,12 +16,12 @@
 
 namespace microslip::contact {
 
-inline constexpr int n_band_nodes = 12;
-using BandPoints = Eigen::Matrix<double, n_band_nodes, 1>;
+using BandPoints = Eigen::Array<double, n_band_nodes, 1>;
 
 /// On [−1, 1].
 struct BandPanel {
-  BandPoints node, weight;
+  BandValues node;
+  BandPoints weight;
   /// Values → shares of the Legendre polynomials of degree 8 to 11, the lower ones counted less.
   /// One degree alone would miss functions that are even or odd about the middle.
   Eigen::Matrix<double, 4, n_band_nodes> top;
@@ -32,38 +33,47 @@ struct BandPanel {
 [[nodiscard]] double band_friction(const SliderBand& band, const BandPiece& piece,
                                    const BandInstant& now);
 
-/// μ n |w'|: friction times the way of a slider that slips, by θ [J/m²].
-[[nodiscard]] double band_slip_power(const BandPiece& piece, const BandInstant& now,
-                                     double friction);
-
 /// What panels are halved for. Forces alone: integrals of friction times the rate of the band, in
 /// which the coefficient is derived, then err by more than rounding.
 enum class BandIntegrals { forces, forces_and_slip };
 
-/// What a panel knows at its nodes.
-struct BandPanelNodes {
-  std::array<BandInstant, n_band_nodes> instant;
-  BandPoints friction;
-  BandPoints load;
-  BandPoints slip_power;
-  Eigen::Matrix<double, Eigen::Dynamic, n_band_nodes> basis;
+/// Highest ones: that forces are integrated against, and that the basis has.
+struct BandHarmonics {
+  int of_forces = 0;
+  int of_basis = 0;
 };
 
-/// Calls visit(instant, friction, basis, weight) at the nodes of a piece.
+[[nodiscard]] inline BandPoints points_of(const BandValues& values) {
+  return Eigen::Map<const BandPoints>(values.data());
+}
+
+/// What a panel knows at its nodes.
+struct BandPanelNodes {
+  BandInstants instants;
+  BandPoints weight;      ///< of the piece [rad]
+  BandPoints friction;    ///< f [Pa]
+  BandPoints slip_power;  ///< μ n |w'|: friction times the way of a slider that slips, by θ [J/m²]
+  std::vector<double> basis;  ///< 1, sin θ, cos θ, …, [2 of_basis + 1][n_band_nodes]
+};
+
+/// Calls visit(nodes) for each panel of a piece.
 template <typename Visit>
 class PieceVisitor {
  public:
-  PieceVisitor(SliderBand& band, const BandPiece& piece, BandIntegrals wanted, const Visit& visit)
+  PieceVisitor(SliderBand& band, const BandPiece& piece, BandHarmonics harmonics,
+               BandIntegrals wanted, const Visit& visit)
       : band_(band),
         piece_(piece),
+        harmonics_(harmonics),
         with_slip_(wanted == BandIntegrals::forces_and_slip),
         visit_(visit),
-        nodes_(storage()) {}
+        nodes_(storage()) {
+    nodes_.basis.resize(static_cast<std::size_t>((2 * harmonics.of_basis + 1) * n_band_nodes));
+  }
 
-  /// For products with harmonics up to `highest`.
-  void visit(int highest) {
+  void visit() {
     // A wave of k oscillations per 2π over a panel of length h errs by 1e-31 (kh/2)²⁴.
-    const double longest = 4.4 / (band_.n_harmonics() + highest);
+    const double longest = 4.4 / std::max(band_.n_harmonics() + harmonics_.of_forces, 2);
     const double begin = piece_.stretch.begin;
     const double length = piece_.stretch.end - begin;
     if (!(length > 0.0)) return;
@@ -101,22 +111,27 @@ class PieceVisitor {
       }
       return;
     }
-    for (int i = 0; i < n_band_nodes; ++i) {
-      visit_(nodes_.instant[static_cast<std::size_t>(i)], nodes_.friction[i], nodes_.basis.col(i),
-             half * band_panel().weight[i]);
-    }
+    nodes_.weight = half * band_panel().weight;
+    visit_(nodes_);
   }
 
   void evaluate(double begin, double half) {
-    nodes_.basis.resize(band_.basis_size(), n_band_nodes);
-    for (int i = 0; i < n_band_nodes; ++i) {
-      BandInstant& now = nodes_.instant[static_cast<std::size_t>(i)];
-      now = band_.at(BandPlace{piece_.stretch.anchor, begin + half * (1.0 + band_panel().node[i])});
-      nodes_.basis.col(i) = band_.basis();
-      nodes_.friction[i] = band_friction(band_, piece_, now);
-      nodes_.load[i] = now.surface.load;
-      if (with_slip_) nodes_.slip_power[i] = band_slip_power(piece_, now, nodes_.friction[i]);
+    band_.at({piece_.stretch.anchor, begin + half, half, &band_panel().node}, harmonics_.of_basis,
+             nodes_.basis.data(), nodes_.instants);
+    const BandInstants& now = nodes_.instants;
+    if (!band_.has_spring() || piece_.state == ContactState::separated) {
+      nodes_.friction.setZero();
+    } else if (piece_.state == ContactState::stick) {
+      nodes_.friction = band_.law().first_stiffness() * points_of(now.stiffness_ratio) *
+                        (points_of(now.motion.position) - piece_.slider);
+    } else {
+      nodes_.friction =
+          piece_.slip_sign() * points_of(now.friction_coefficient) * points_of(now.load);
     }
+    if (!with_slip_) return;
+    nodes_.slip_power =
+        nodes_.friction.abs() *
+        (points_of(now.motion.velocity) - piece_.slip_sign() * points_of(now.reach_rate)).abs();
   }
 
   /// Relative to the sizes of the forces.
@@ -133,7 +148,7 @@ class PieceVisitor {
     Tail tail;
     if (band_.law().is_smooth() && !band_.law().is_rate_dependent()) return tail;
     add_tail(nodes_.friction, band_.friction_size(), geometric, tail);
-    add_tail(nodes_.load, band_.load_size(), geometric, tail);
+    add_tail(points_of(nodes_.instants.load), band_.load_size(), geometric, tail);
     if (with_slip_) {
       constexpr double hidden = 1e-4;  // of the term of degree 11, of e^−y from 16 to 40: grades
       const double size = band_.friction_size() * band_.rate_size();
@@ -146,12 +161,12 @@ class PieceVisitor {
   /// Terms fall off geometrically: as the one of degree 11 is to the largest value, so is what is
   /// left out to that, and less.
   static double geometric(double top, const BandPoints& values) {
-    return top / values.cwiseAbs().maxCoeff();
+    return top / values.abs().maxCoeff();
   }
 
   template <typename Share>
   static void add_tail(const BandPoints& values, double size, const Share& share, Tail& tail) {
-    const double top = (band_panel().top * values).cwiseAbs().maxCoeff();
+    const double top = band_panel().top.lazyProduct(values.matrix()).cwiseAbs().maxCoeff();
     if (!(top > 0.0)) return;
     tail.top = std::max(tail.top, top / size);
     tail.left_out = std::max(tail.left_out, (top / size) * share(top, values));
@@ -159,16 +174,16 @@ class PieceVisitor {
 
   SliderBand& band_;
   const BandPiece& piece_;
+  BandHarmonics harmonics_;
   bool with_slip_;
   const Visit& visit_;
   BandPanelNodes& nodes_;
 };
 
-/// @param highest  harmonic that forces are integrated against.
 template <typename Visit>
-void visit_piece(SliderBand& band, const BandPiece& piece, int highest, BandIntegrals wanted,
-                 const Visit& visit) {
-  PieceVisitor<Visit>(band, piece, wanted, visit).visit(highest);
+void visit_piece(SliderBand& band, const BandPiece& piece, BandHarmonics harmonics,
+                 BandIntegrals wanted, const Visit& visit) {
+  PieceVisitor<Visit>(band, piece, harmonics, wanted, visit).visit();
 }
 
 }  // namespace microslip::contact

@@ -37,9 +37,7 @@ BandStretch stretch_between(const BandNode& from, const BandNode& to) {
   return {anchor, offset(from), offset(to)};
 }
 
-void SliderBand::set(const SurfaceLaw& law, const Harmonics& motion, double frequency,
-                     int n_basis) {
-  n_basis_ = n_basis;
+void SliderBand::set(const SurfaceLaw& law, const Harmonics& motion, double frequency) {
   law_ = &law;
   frequency_ = frequency;
   position_mean_ = motion.mean()[0];
@@ -70,8 +68,8 @@ void SliderBand::set(const SurfaceLaw& law, const Harmonics& motion, double freq
 }
 
 void SliderBand::set_motion(double phase, BandInstant& now) {
-  trigonometric_basis(n_basis_, phase, basis_);
-  const auto basis = basis_.head(u_.size());
+  trigonometric_basis(n_harmonics(), phase, basis_);
+  const auto& basis = basis_;
   now.phase = phase;
   now.position = u_.dot(basis);
   now.velocity = u_rate_.dot(basis);
@@ -102,6 +100,68 @@ BandInstant SliderBand::at(const BandPlace& place) {
         now.reach_by_rate * frequency_ * std::copysign(1.0, now.velocity) * now.acceleration;
   }
   return now;
+}
+
+void SliderBand::set_surface(BandInstants& now) const {
+  const auto& motion = now.motion;
+  if (!law_->is_smooth()) {
+    for (std::size_t i = 0; i < n_band_nodes; ++i) {
+      const SurfaceState y =
+          law_->at(motion.approach[i], frequency_ * std::abs(motion.velocity[i]));
+      now.friction_coefficient[i] = y.friction_coefficient;
+      now.friction_coefficient_by_rate[i] = y.friction_coefficient_by_rate;
+      now.load[i] = y.load;
+      now.load_by_approach[i] = y.load_by_approach;
+      now.stiffness_ratio[i] = y.stiffness_ratio;
+      now.stiffness_ratio_by_approach[i] = y.stiffness_ratio_by_approach;
+      now.reach[i] = y.load_per_ratio;
+      now.reach_by_approach[i] = y.load_per_ratio_by_approach;
+    }
+    return;
+  }
+  const PointParameters& point = law_->point();
+  for (std::size_t i = 0; i < n_band_nodes; ++i) {
+    const FrictionCoefficient mu = law_->friction().at(frequency_ * std::abs(motion.velocity[i]));
+    now.friction_coefficient[i] = mu.value;
+    now.friction_coefficient_by_rate[i] = mu.by_rate;
+  }
+  for (std::size_t i = 0; i < n_band_nodes; ++i) {
+    const double load = point.rest_load + point.normal_stiffness * motion.approach[i];
+    now.load[i] = now.reach[i] = std::max(load, 0.0);
+    now.load_by_approach[i] = now.reach_by_approach[i] = load > 0.0 ? point.normal_stiffness : 0.0;
+  }
+  now.stiffness_ratio.fill(1.0);
+  now.stiffness_ratio_by_approach.fill(0.0);
+}
+
+/// From what set_surface() leaves in the reach: load per ratio of stiffness.
+void SliderBand::set_band(BandInstants& now) const {
+  const double spring = has_spring() ? 1.0 / law_->first_stiffness() : 0.0;
+  const auto& motion = now.motion;
+  for (std::size_t i = 0; i < n_band_nodes; ++i) {
+    const double mu = now.friction_coefficient[i] * spring;
+    now.reach_by_rate[i] = now.friction_coefficient_by_rate[i] * spring * now.reach[i];
+    now.reach[i] *= mu;
+    now.reach_by_approach[i] *= mu;
+    const double sign = std::copysign(1.0, motion.velocity[i]);
+    now.reach_rate[i] = now.reach_by_approach[i] * motion.approach_rate[i] +
+                        now.reach_by_rate[i] * frequency_ * sign * motion.acceleration[i];
+  }
+}
+
+void SliderBand::at(const BandPlaces& places, int n_basis, double* basis, BandInstants& now) {
+  BandValues arcs;
+  BandValues offsets;
+  for (std::size_t i = 0; i < n_band_nodes; ++i) {
+    arcs[i] = places.half * (*places.shares)[i];
+    offsets[i] = places.middle + arcs[i];
+  }
+  const double middle = places.anchor.phase + places.middle;
+  band_kernels().motion({u_.data(), v_.data(), n_harmonics()}, {std::sin(middle), std::cos(middle)},
+                        arcs.data(), n_basis, basis, now.motion);
+  layers_.correct(places.anchor, offsets, now.motion.velocity);
+  set_surface(now);
+  set_band(now);
 }
 
 BandInstant SliderBand::at_turn(double phase) {
@@ -209,10 +269,20 @@ void SliderBand::add_turns(const BandNode& from, const BandNode& to, std::vector
     const BandInstant now = at(BandPlace{stretch.anchor, offset});
     return {now.velocity - now.reach_rate, now.velocity + now.reach_rate};
   };
+  const auto rates_of_cell = [&](double middle, double half, const SmoothValues& shares,
+                                 std::array<SmoothValues, 2>& values) {
+    BandInstants now;
+    at({stretch.anchor, middle, half, &shares}, now);
+    for (std::size_t i = 0; i < n_band_nodes; ++i) {
+      values[0][i] = now.motion.velocity[i] - now.reach_rate[i];
+      values[1][i] = now.motion.velocity[i] + now.reach_rate[i];
+    }
+  };
   signs_.clear();
   // A wave of order H is resolved to 1e-11 on this length by the polynomials of the search.
   const double cell = 2.1 / n_harmonics();
-  add_smooth_signs(rates, stretch.begin, stretch.end, cell, size_, signs_);
+  add_smooth_signs(SmoothFunctions{rates, rates_of_cell}, stretch.begin, stretch.end, cell, size_,
+                   signs_);
   std::sort(signs_.begin(), signs_.end(),
             [](const SmoothSign& a, const SmoothSign& b) { return a.phase < b.phase; });
   for (const SmoothSign& sign : signs_) {

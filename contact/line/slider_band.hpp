@@ -19,6 +19,7 @@
 #include <Eigen/Core>
 
 #include "contact/harmonics.hpp"
+#include "contact/line/band_kernels.hpp"
 #include "contact/line/band_layers.hpp"
 #include "contact/numerics/sign_changes.hpp"
 #include "contact/numerics/smooth_signs.hpp"
@@ -42,6 +43,23 @@ struct BandInstant {
 
   [[nodiscard]] double lower() const { return position - reach; }
   [[nodiscard]] double upper() const { return position + reach; }
+};
+
+/// Twelve instants of one stretch side by side, each as BandInstant has it.
+struct BandInstants {
+  BandMotion motion;
+  BandValues friction_coefficient, friction_coefficient_by_rate;
+  BandValues load, load_by_approach;
+  BandValues stiffness_ratio, stiffness_ratio_by_approach;
+  BandValues reach, reach_by_approach, reach_by_rate, reach_rate;
+};
+
+/// Places middle + half · share, counted from one anchor.
+struct BandPlaces {
+  BandAnchor anchor;
+  double middle = 0.0;                 ///< offset [rad]
+  double half = 0.0;                   ///< [rad], at most longest_band_arc
+  const BandValues* shares = nullptr;  ///< in [−1, 1]
 };
 
 /// Where a stretch begins or ends.
@@ -73,17 +91,19 @@ class SliderBand {
  public:
   /// @param law      outlives the use.
   /// @param motion   u and v in columns 0 and 1; column 2 is not seen.
-  /// @param n_basis  harmonics of basis(), at least those of the motion.
-  void set(const SurfaceLaw& law, const Harmonics& motion, double frequency, int n_basis);
+  void set(const SurfaceLaw& law, const Harmonics& motion, double frequency);
 
   /// @param phase  any [rad].
   [[nodiscard]] BandInstant at(double phase) { return at(BandPlace{{}, phase}); }
   [[nodiscard]] BandInstant at(const BandPlace& place);
   /// The same where |u'| has its kink: u' = 0 to the last bit for the law.
   [[nodiscard]] BandInstant at_turn(double phase);
-  /// 1, sin θ, cos θ, … of the last instant.
+  /// Twelve at once; what depends on the slider's spring is 0 without one.
+  void at(const BandPlaces& places, BandInstants& now) { at(places, 0, nullptr, now); }
+  /// @param basis  → 1, sin θ, cos θ, … up to n_basis, [2 n_basis + 1][n_band_nodes].
+  void at(const BandPlaces& places, int n_basis, double* basis, BandInstants& now);
+  /// 1, sin θ, cos θ, … of the last single instant.
   [[nodiscard]] const Eigen::VectorXd& basis() const { return basis_; }
-  [[nodiscard]] Eigen::Index basis_size() const { return 2 * n_basis_ + 1; }
 
   /// Runs of contact in order of time, found again with every call.
   [[nodiscard]] const std::vector<ContactRun>& find_runs();
@@ -104,6 +124,8 @@ class SliderBand {
   /// Where the motion of a phase is known.
   void set_motion(double phase, BandInstant& now);
   void set_band(double speed, BandInstant& now);
+  void set_surface(BandInstants& now) const;
+  void set_band(BandInstants& now) const;
   [[nodiscard]] BandNode edge_at(double phase, bool touches);
   [[nodiscard]] std::vector<BandNode> inner_edges(double begin, double end);
   void find_edges();
@@ -117,7 +139,6 @@ class SliderBand {
   double friction_size_ = 0.0;
   double load_size_ = 0.0;
   Eigen::VectorXd u_, u_rate_, u_second_, v_, v_rate_;
-  int n_basis_ = 0;
   Eigen::VectorXd basis_;
   TrigonometricPolynomial polynomial_;
   std::vector<SignChange> changes_;

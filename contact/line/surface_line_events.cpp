@@ -80,7 +80,7 @@ PointInstant instant_of(SliderBand& band, const BandCycle& cycle, double phase) 
 void SurfaceLineEvents::traction(const Harmonics& motion, double frequency,
                                  PointTraction& result) const {
   Workshop& shop = workshop();
-  shop.band.set(law_, along_p(motion), frequency, 2 * motion.n_harmonics());
+  shop.band.set(law_, along_p(motion), frequency);
   walk_band(shop.band, shop.cycle);
   shop.traction.set(shop.band, shop.cycle, result);
 }
@@ -88,8 +88,7 @@ void SurfaceLineEvents::traction(const Harmonics& motion, double frequency,
 PointHistory SurfaceLineEvents::history(const Harmonics& motion, double frequency,
                                         const Eigen::VectorXd& phases, int n_harmonics) const {
   Workshop& shop = workshop();
-  const int n_basis = std::max(n_harmonics, motion.n_harmonics());
-  shop.band.set(law_, along_p(motion), frequency, n_basis);
+  shop.band.set(law_, along_p(motion), frequency);
   walk_band(shop.band, shop.cycle);
   const BandWork work = band_work(shop.band, shop.cycle);
   PointHistory result;

@@ -13,13 +13,13 @@
 namespace microslip::contact {
 namespace {
 
-constexpr int n_nodes = 12;
+constexpr int n_nodes = n_smooth_nodes;
 using Series = Eigen::Matrix<double, n_nodes, 1>;
 using Square = Eigen::Matrix<double, n_nodes, n_nodes>;
 
 /// What does not depend on the functions.
 struct Tables {
-  Series node;          // zeros of T_n
+  SmoothValues node;    // zeros of T_n
   Square coefficients;  // values → c
   Square left;          // c → those on [−1, 0], scaled to [−1, 1]
   Square right;
@@ -40,12 +40,13 @@ Tables make_tables() {
   Tables t;
   std::array<Square, 2> half_values;
   for (int i = 0; i < n_nodes; ++i) {
-    t.node[i] = -std::cos(std::numbers::pi * (i + 0.5) / n_nodes);
+    const double x = -std::cos(std::numbers::pi * (i + 0.5) / n_nodes);
+    t.node[static_cast<std::size_t>(i)] = x;
     for (int k = 0; k < n_nodes; ++k) {
-      const double T = std::cos(k * std::acos(t.node[i]));
+      const double T = std::cos(k * std::acos(x));
       t.coefficients(k, i) = (k == 0 ? 1.0 : 2.0) / n_nodes * T;
-      half_values[0](i, k) = std::cos(k * std::acos(0.5 * (t.node[i] - 1.0)));
-      half_values[1](i, k) = std::cos(k * std::acos(0.5 * (t.node[i] + 1.0)));
+      half_values[0](i, k) = std::cos(k * std::acos(0.5 * (x - 1.0)));
+      half_values[1](i, k) = std::cos(k * std::acos(0.5 * (x + 1.0)));
     }
   }
   t.left = t.coefficients * half_values[0];
@@ -72,18 +73,15 @@ Series derivative(const Series& c) {
 /// Walks from cell to cell with the sign of both functions so far.
 class Search {
  public:
-  Search(const SmoothPair& functions, double size, std::vector<SmoothSign>& found)
+  Search(const SmoothFunctions& functions, double size, std::vector<SmoothSign>& found)
       : functions_(functions), size_(size), found_(found) {}
 
   /// @param before  tails of the cell twice as long.
   void cover(double begin, double end, int depth, double before = INFINITY) {
     const double half = 0.5 * (end - begin);
-    Eigen::Matrix<double, n_nodes, 2> values;
-    for (int i = 0; i < n_nodes; ++i) {
-      const std::array<double, 2> f = functions_(begin + half * (1.0 + tables().node[i]));
-      values(i, 0) = f[0];
-      values(i, 1) = f[1];
-    }
+    std::array<SmoothValues, 2> at_nodes;
+    functions_.over_cell(begin + half, half, tables().node, at_nodes);
+    const Eigen::Map<const Eigen::Matrix<double, n_nodes, 2>> values(at_nodes[0].data());
     const Eigen::Matrix<double, n_nodes, 2> c = tables().coefficients.lazyProduct(values);
     std::array<bool, 2> resolved{};
     bool settled = true;
@@ -166,7 +164,7 @@ class Search {
   double polished(const Series& c, double begin, double half, double x, int function) {
     const double slope = value(derivative(c), x);
     for (int i = 0; i < 8; ++i) {
-      const double f = functions_(begin + half * (1.0 + x))[static_cast<std::size_t>(function)];
+      const double f = functions_.at(begin + half * (1.0 + x))[static_cast<std::size_t>(function)];
       const double step = f / slope;
       x = std::clamp(x - step, -1.0, 1.0);
       if (std::abs(step) <= 1e-7) break;  // the next one would be 1e-9
@@ -181,7 +179,7 @@ class Search {
     before = now;
   }
 
-  const SmoothPair& functions_;
+  const SmoothFunctions& functions_;
   double size_;
   std::vector<SmoothSign>& found_;
   std::array<int, 2> sign_{0, 0};
@@ -190,7 +188,7 @@ class Search {
 
 }  // namespace
 
-void add_smooth_signs(const SmoothPair& functions, double begin, double end, double cell,
+void add_smooth_signs(const SmoothFunctions& functions, double begin, double end, double cell,
                       double size, std::vector<SmoothSign>& found) {
   const double length = end - begin;
   if (!(length > 0.0)) return;
@@ -201,6 +199,19 @@ void add_smooth_signs(const SmoothPair& functions, double begin, double end, dou
   for (int i = 0; i < n_cells; ++i) {
     search.cover(begin + length * i / n_cells, begin + length * (i + 1) / n_cells, deepest);
   }
+}
+
+void add_smooth_signs(const SmoothPair& functions, double begin, double end, double cell,
+                      double size, std::vector<SmoothSign>& found) {
+  const auto node_by_node = [&](double middle, double half, const SmoothValues& shares,
+                                std::array<SmoothValues, 2>& values) {
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+      const std::array<double, 2> f = functions(middle + half * shares[i]);
+      values[0][i] = f[0];
+      values[1][i] = f[1];
+    }
+  };
+  add_smooth_signs(SmoothFunctions{functions, node_by_node}, begin, end, cell, size, found);
 }
 
 }  // namespace microslip::contact

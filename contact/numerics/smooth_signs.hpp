@@ -25,11 +25,27 @@ struct SmoothSign {
 /// Two functions at once, as they come from one evaluation.
 using SmoothPair = std::function<std::array<double, 2>(double phase)>;
 
+inline constexpr int n_smooth_nodes = 12;
+using SmoothValues = std::array<double, n_smooth_nodes>;
+
+/// The same at all nodes of a cell, middle + half · share.
+using SmoothCell = std::function<void(double middle, double half, const SmoothValues& shares,
+                                      std::array<SmoothValues, 2>& values)>;
+
+/// Both give the same.
+struct SmoothFunctions {
+  SmoothPair at;
+  SmoothCell over_cell;
+};
+
 /// @param functions  smooth inside (begin, end).
 /// @param cell       longest cell, as long as the functions are expected to be resolved on.
 /// @param size       of the functions: tolerance is 1e-10, rounding 1e-15 of it; where they are
 ///                   larger than that, 1e-11 of what they are.
 /// @param found      sign changes are added, function by function and cell by cell; not sorted.
+void add_smooth_signs(const SmoothFunctions& functions, double begin, double end, double cell,
+                      double size, std::vector<SmoothSign>& found);
+/// The same node by node.
 void add_smooth_signs(const SmoothPair& functions, double begin, double end, double cell,
                       double size, std::vector<SmoothSign>& found);
 
