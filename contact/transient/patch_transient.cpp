@@ -81,13 +81,13 @@ PatchTransient::PatchTransient(const ContactPatch& patch, ModalShapes given)
 
 Eigen::VectorXd PatchTransient::modal_force(const Eigen::VectorXd& friction,
                                             const Eigen::VectorXd& normal) const {
-  return shapes().u.transpose() * friction + shapes().v.transpose() * normal;
+  return shapes().u.transpose().lazyProduct(friction) + shapes().v.transpose().lazyProduct(normal);
 }
 
 Eigen::VectorXd PatchTransient::trial_force(const ModalMotion& motion,
                                             const TransientMemory& memory) const {
-  Eigen::VectorXd friction = shapes().u * motion.q;
-  Eigen::VectorXd normal = shapes().v * motion.q;
+  Eigen::VectorXd friction = shapes().u.lazyProduct(motion.q);
+  Eigen::VectorXd normal = shapes().v.lazyProduct(motion.q);
   for (Eigen::Index i = 0; i < n_points(); ++i) {
     const PointParameters& point = points_[static_cast<std::size_t>(i)];
     const double load = std::max(0.0, signed_load(point, normal[i]));
@@ -99,8 +99,8 @@ Eigen::VectorXd PatchTransient::trial_force(const ModalMotion& motion,
 }
 
 double PatchTransient::commit(const ModalMotion& motion, TransientMemory& memory) const {
-  const Eigen::VectorXd u = shapes().u * motion.q;
-  const Eigen::VectorXd v = shapes().v * motion.q;
+  const Eigen::VectorXd u = shapes().u.lazyProduct(motion.q);
+  const Eigen::VectorXd v = shapes().v.lazyProduct(motion.q);
   double work = 0.0;
   for (Eigen::Index i = 0; i < n_points(); ++i) {
     const auto index = static_cast<std::size_t>(i);
@@ -114,8 +114,8 @@ double PatchTransient::commit(const ModalMotion& motion, TransientMemory& memory
 
 Eigen::VectorXd PatchTransient::held_force(const ModalMotion& motion,
                                            const TransientMemory& memory) const {
-  Eigen::VectorXd friction = shapes().u * motion.q;
-  Eigen::VectorXd normal = shapes().v * motion.q;
+  Eigen::VectorXd friction = shapes().u.lazyProduct(motion.q);
+  Eigen::VectorXd normal = shapes().v.lazyProduct(motion.q);
   for (Eigen::Index i = 0; i < n_points(); ++i) {
     const auto index = static_cast<std::size_t>(i);
     const PointParameters& point = points_[index];
@@ -164,10 +164,10 @@ TransientForce::Guards PatchTransient::guards_at(Eigen::Index point, const Insta
 
 Eigen::Matrix<double, Eigen::Dynamic, TransientForce::guards_per_point> PatchTransient::guards(
     const ModalMotion& motion, const TransientMemory& memory, const GuardScale& scale) const {
-  const Eigen::VectorXd u = shapes().u * motion.q;
-  const Eigen::VectorXd v = shapes().v * motion.q;
-  const Eigen::VectorXd u_rate = shapes().u * motion.velocity;
-  const Eigen::VectorXd v_rate = shapes().v * motion.velocity;
+  const Eigen::VectorXd u = shapes().u.lazyProduct(motion.q);
+  const Eigen::VectorXd v = shapes().v.lazyProduct(motion.q);
+  const Eigen::VectorXd u_rate = shapes().u.lazyProduct(motion.velocity);
+  const Eigen::VectorXd v_rate = shapes().v.lazyProduct(motion.velocity);
   Eigen::Matrix<double, Eigen::Dynamic, guards_per_point> result(n_points(), guards_per_point);
   for (Eigen::Index i = 0; i < n_points(); ++i) {
     const Guards row =

@@ -88,9 +88,9 @@ PlanarTransient::Motions PlanarTransient::all_motions(const ModalMotion& motion)
     if (q.size() == 0) {
       columns.setZero();
     } else {
-      columns.col(0).noalias() = shapes().u * q;
-      columns.col(1).noalias() = shapes().v * q;
-      columns.col(2).noalias() = shapes().w * q;
+      columns.col(0) = shapes().u.lazyProduct(q);
+      columns.col(1) = shapes().v.lazyProduct(q);
+      columns.col(2) = shapes().w.lazyProduct(q);
     }
     return columns;
   };
@@ -110,8 +110,9 @@ PlanarPointInstant PlanarTransient::instant_at(Eigen::Index i, const ModalMotion
 /// @param tractions  (f_p, n − n_ref, f_r) of each point.
 Eigen::VectorXd PlanarTransient::modal_force(Eigen::MatrixX3d tractions) const {
   tractions.array().colwise() *= weights().array();
-  return shapes().u.transpose() * tractions.col(0) + shapes().v.transpose() * tractions.col(1) +
-         shapes().w.transpose() * tractions.col(2);
+  return shapes().u.transpose().lazyProduct(tractions.col(0)) +
+         shapes().v.transpose().lazyProduct(tractions.col(1)) +
+         shapes().w.transpose().lazyProduct(tractions.col(2));
 }
 
 Eigen::VectorXd PlanarTransient::trial_force(const ModalMotion& motion,

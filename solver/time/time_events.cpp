@@ -121,8 +121,8 @@ EventStepper::Step EventStepper::try_step(double time, double length, const Time
   for (std::size_t i = 1; i < n_stages; ++i) {
     const Eigen::Map<const Eigen::VectorXd> a(stages[i].data(), static_cast<Eigen::Index>(i));
     const auto column = static_cast<Eigen::Index>(i);
-    step.displacement = length * (velocity.leftCols(column) * a);
-    step.velocity = length * (acceleration_of.leftCols(column) * a);
+    step.displacement = length * velocity.leftCols(column).lazyProduct(a);
+    step.velocity = length * acceleration_of.leftCols(column).lazyProduct(a);
     ModalMotion motion{state.motion.q + step.displacement, state.motion.velocity + step.velocity};
     if (n_internal > 0) {
       moved.internal = state.memory.internal + length * (internal_rate.leftCols(column) * a);
@@ -136,8 +136,8 @@ EventStepper::Step EventStepper::try_step(double time, double length, const Time
   }
   step.acceleration_end = acceleration_of.col(n_stages - 1);
   const Eigen::Map<const Eigen::VectorXd> weights(error_weights.data(), n_stages);
-  const double displacement_error = length * (velocity * weights).norm();
-  const double velocity_error = length * (acceleration_of * weights).norm();
+  const double displacement_error = length * velocity.lazyProduct(weights).norm();
+  const double velocity_error = length * acceleration_of.lazyProduct(weights).norm();
   step.error = std::max(relative_error(displacement_error, size.displacement),
                         relative_error(velocity_error, size.velocity));
   if (n_internal > 0) {

@@ -57,8 +57,8 @@ class TimeSegment {
     const Powers value{1.0, x, x2, x2 * x, x2 * x2, x2 * x2 * x};
     const Powers slope{0.0, 1.0, 2.0 * x, 3.0 * x2, 4.0 * x2 * x, 5.0 * x2 * x2};
     const Powers curve{0.0, 0.0, 2.0, 6.0 * x, 12.0 * x2, 20.0 * x2 * x};
-    return {coefficients_ * value, coefficients_ * slope / length_,
-            coefficients_ * curve / (length_ * length_)};
+    return {coefficients_.lazyProduct(value), coefficients_.lazyProduct(slope) / length_,
+            coefficients_.lazyProduct(curve) / (length_ * length_)};
   }
   [[nodiscard]] bool has_internal() const { return internal_.rows() > 0; }
   [[nodiscard]] Eigen::VectorXd internal_at(double x) const {

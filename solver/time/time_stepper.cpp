@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string>
 
+#include "contact/trigonometric_basis.hpp"
 #include "solver/time/time_events.hpp"
 #include "solver/time/time_rk4.hpp"
 
@@ -72,9 +73,13 @@ TimeState state_on(const TimeSystem& system, const Harmonics& q) {
   const Harmonics rate = by_phase(q);
   if (system.contact() != nullptr) {
     constexpr int n_samples = 720;
+    Eigen::VectorXd basis;
+    ModalMotion now;
     for (int i = 0; i <= 2 * n_samples; ++i) {  // the period map of sliders on a line is idempotent
-      const double phase = 2.0 * std::numbers::pi * i / n_samples;
-      system.contact()->commit({q.at(phase), system.frequency() * rate.at(phase)}, state.memory);
+      contact::trigonometric_basis(q.n_harmonics(), 2.0 * std::numbers::pi * i / n_samples, basis);
+      now.q = q.rows().transpose().lazyProduct(basis);
+      now.velocity = system.frequency() * rate.rows().transpose().lazyProduct(basis);
+      system.contact()->commit(now, state.memory);
     }
   }
   state.motion = {q.at(0.0), system.frequency() * rate.at(0.0)};
