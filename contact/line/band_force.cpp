@@ -47,6 +47,13 @@ Harmonics band_force(SliderBand& band, const BandCycle& cycle, int n_harmonics) 
   return force;
 }
 
+void set_states(const BandCycle& cycle, PointTraction& result) {
+  result.regime = cycle.regime;
+  for (const BandPiece& piece : cycle.pieces) {
+    result.period.set(piece.state, piece.begin, piece.end - piece.begin);
+  }
+}
+
 void BandTraction::set(SliderBand& band, const BandCycle& cycle, PointTraction& result) {
   const Eigen::Index n = 2 * band.n_harmonics() + 1;
   sums_.setZero(n_sums, 2 * n - 1);
@@ -55,10 +62,9 @@ void BandTraction::set(SliderBand& band, const BandCycle& cycle, PointTraction& 
   memory_by_u_.setZero(n, n);
   memory_by_v_.setZero(n, n);
   for (const BandPiece& piece : cycle.pieces) {
-    result.period.set(piece.state, piece.begin, piece.end - piece.begin);
     if (piece.state != ContactState::separated) add_piece(band, piece);
   }
-  result.regime = cycle.regime;
+  set_states(cycle, result);
   result.defect = 0.0;
   write(result);
 }

@@ -39,6 +39,9 @@ struct BandWork {
 /// f_p and n; f_r is 0. @param n_harmonics  of the forces, ≥ 0.
 [[nodiscard]] Harmonics band_force(SliderBand& band, const BandCycle& cycle, int n_harmonics);
 
+/// `regime` and `period` of the result.
+void set_states(const BandCycle& cycle, PointTraction& result);
+
 /// Force with its derivatives; keeps its storage.
 class BandTraction {
  public:

@@ -172,6 +172,13 @@ Harmonics EventForce::force(const PointParameters& point, const EventGuards& gua
   return force;
 }
 
+void set_states(const EventPhases& phases, PointTraction& result) {
+  result.regime = phases.regime;
+  for (const EventPhase& phase : phases.phases) {
+    result.period.set(phase.state, phase.begin, phase.length);
+  }
+}
+
 void EventForce::traction(const PointParameters& point, const EventGuards& guards,
                           const EventPhases& phases, PointTraction& result) {
   const int n_harmonics = guards.load.degree();
@@ -182,10 +189,7 @@ void EventForce::traction(const PointParameters& point, const EventGuards& guard
   }
   result.jacobian.setZero(size, size);
   result.frequency_derivative.setZero(size);
-  result.regime = phases.regime;
-  for (const EventPhase& phase : phases.phases) {
-    result.period.set(phase.state, phase.begin, phase.length);
-  }
+  set_states(phases, result);
   set_force(point, guards, result.force);
   set_springs(point, result.jacobian);
   if (rubs_) {

@@ -24,6 +24,9 @@
 
 namespace microslip::contact {
 
+/// `regime` and `period` of the result.
+void set_states(const EventPhases& phases, PointTraction& result);
+
 /// Forces and Jacobian of phases; keeps its storage for the next ones.
 class EventForce {
  public:

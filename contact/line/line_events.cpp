@@ -31,6 +31,13 @@ void LineEvents::traction(const Harmonics& motion, double /*frequency*/,
   shop.force.traction(point_, shop.guards, shop.search.find(shop.guards), result);
 }
 
+void LineEvents::states(const Harmonics& motion, double /*frequency*/,
+                        PointTraction& result) const {
+  Workshop& shop = workshop();
+  set_event_guards(point_, motion, shop.guards);
+  set_states(shop.search.find(shop.guards), result);
+}
+
 Harmonics LineEvents::force_up_to(const Harmonics& motion, double /*frequency*/,
                                   int n_harmonics) const {
   Workshop& shop = workshop();

@@ -28,6 +28,7 @@ class LineEvents final : public PointMethod {
   explicit LineEvents(const PointParameters& point) : point_(point) {}
 
   void traction(const Harmonics& motion, double frequency, PointTraction& result) const override;
+  void states(const Harmonics& motion, double frequency, PointTraction& result) const override;
   /// Events are those of the motion: its harmonics are paid for, not those of the force.
   [[nodiscard]] Harmonics force_up_to(const Harmonics& motion, double frequency,
                                       int n_harmonics) const override;

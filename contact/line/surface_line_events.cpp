@@ -85,6 +85,14 @@ void SurfaceLineEvents::traction(const Harmonics& motion, double frequency,
   shop.traction.set(shop.band, shop.cycle, result);
 }
 
+void SurfaceLineEvents::states(const Harmonics& motion, double frequency,
+                               PointTraction& result) const {
+  Workshop& shop = workshop();
+  shop.band.set(law_, along_p(motion), frequency);
+  walk_band(shop.band, shop.cycle);
+  set_states(shop.cycle, result);
+}
+
 PointHistory SurfaceLineEvents::history(const Harmonics& motion, double frequency,
                                         const Eigen::VectorXd& phases, int n_harmonics) const {
   Workshop& shop = workshop();

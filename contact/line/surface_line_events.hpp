@@ -36,6 +36,7 @@ class SurfaceLineEvents final : public PointMethod {
 
   /// @throws std::invalid_argument  a motion of other than 3 signals, or without harmonics.
   void traction(const Harmonics& motion, double frequency, PointTraction& result) const override;
+  void states(const Harmonics& motion, double frequency, PointTraction& result) const override;
   [[nodiscard]] PointHistory history(const Harmonics& motion, double frequency,
                                      const Eigen::VectorXd& phases, int n_harmonics) const override;
   [[nodiscard]] Eigen::Vector3d stuck_stiffness() const override;

@@ -75,6 +75,16 @@ TEST_P(LineEventsProperties, EverythingIsFinite) {
   });
 }
 
+TEST_P(LineEventsProperties, StatesAreThoseOfTheForce) {
+  for_all(300, [](const MotionCase& c) {
+    const PointTraction now = traction(c);
+    PointTraction told;
+    LineEvents(c.point).states(c.motion, 1.0, told);
+    ASSERT_EQ(told.regime, now.regime);
+    ASSERT_EQ(told.period.changed(now.period), 0.0);
+  });
+}
+
 TEST_P(LineEventsProperties, TractionAndHistoryGiveTheSameForce) {
   for_all(300, [](const MotionCase& c) {
     const PointTraction now = traction(c);

@@ -305,6 +305,19 @@ TEST(SurfaceLineEvents, FollowsTheActiveEndOfTheBandInFullStick) {
   }
 }
 
+TEST(SurfaceLineEvents, StatesAreThoseOfTheForce) {
+  for (const SurfaceCase& surface : test::surface_cases()) {
+    for (const MotionCase& c : motions(20, 42)) {
+      const SurfaceLineEvents method(surface.make(c));
+      const PointTraction now = traction(method, c.motion);
+      PointTraction told;
+      method.states(c.motion, frequency, told);
+      ASSERT_EQ(told.regime, now.regime) << surface.name;
+      ASSERT_EQ(told.period.changed(now.period), 0.0) << surface.name;
+    }
+  }
+}
+
 TEST(SurfaceLineEvents, ForcesFollowTheUnitToTheLastBit) {
   for (const MotionCase& c : motions(60, 40)) {
     const PointTraction plain = traction(SurfaceLineEvents(test::smooth_surface(c)), c.motion);
