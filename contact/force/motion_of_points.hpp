@@ -1,6 +1,6 @@
 /// @file
-/// The coordinates in which few contact points move: a structure of a hundred modes that rubs at one
-/// point is seen by it through two or three numbers (theory 14.2).
+/// The coordinates in which few contact points move: a structure of a hundred modes that rubs at
+/// one point is seen by it through two or three numbers (theory 14.2).
 #pragma once
 
 #include "contact/motion_coordinates.hpp"
