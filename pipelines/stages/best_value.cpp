@@ -72,7 +72,8 @@ void draw_maps_and_find_best_value(const Solution& solution, const RunOptions& o
     draw_maps(solution, options.jobs, record);
   }
   record.stage("optimum");
-  record.progress().expect(optimum_seconds(solution.model, scene, options.bracket));
+  record.progress().expect(
+      optimum_seconds(solution.model, scene, solution.curves, options.bracket));
   OptimumSearch search(solution.model, scene, solution.structure, options.jobs);
   if (const std::string text = search.warning(); !text.empty()) record.progress().warning(text);
   const KeptResults kept(solution.model, scene);

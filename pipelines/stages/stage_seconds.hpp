@@ -36,9 +36,10 @@ namespace microslip::pipelines {
                                       const std::vector<CurveResult>& curves,
                                       double degrees_of_freedom, int jobs);
 
-/// Of the stage `optimum`. @param bracket  whether its bracket is solved for.
+/// Of the stage `optimum`. @param curves  as above: where they took long, so does a search that
+/// solves for some of them. @param bracket  whether its bracket is solved for.
 [[nodiscard]] double optimum_seconds(const ReducedModel& model, const SceneDescription& scene,
-                                     bool bracket);
+                                     const std::vector<CurveResult>& curves, bool bracket);
 
 /// What is drawn after the curves.
 struct PictureSeconds {

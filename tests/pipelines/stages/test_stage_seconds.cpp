@@ -28,6 +28,20 @@ TEST(StageSeconds, ErrorsOfCurvesThatTookLongTakeLong) {
   EXPECT_LT(forecast(20.0, 2), 0.6 * forecast(20.0, 1));
 }
 
+// It solves whole curves with the harmonics that they have needed.
+TEST(StageSeconds, ABestValueBesideCurvesThatTookLongTakesLonger) {
+  const SceneDescription scene = read_scene(MICROSLIP_SCENES "/blade_to_ground.toml", {});
+  const auto forecast = [&](double seconds) {
+    return optimum_seconds({}, scene, curves(seconds, 5), false);
+  };
+  EXPECT_DOUBLE_EQ(forecast(1e-3), optimum_seconds({}, scene, {}, false));
+  EXPECT_GT(forecast(1e3), 5e3);
+  const SceneDescription one =
+      read_scene(MICROSLIP_SCENES "/blade_to_ground.toml", {"response.harmonics=1"});
+  EXPECT_DOUBLE_EQ(optimum_seconds({}, one, curves(1e3, 5), false),
+                   optimum_seconds({}, one, {}, false));
+}
+
 TEST(StageSeconds, MotionsInTimeAndLimitsHaveNoSuchErrors) {
   const SceneDescription scene = read_scene(MICROSLIP_SCENES "/blade_to_ground.toml", {});
   std::vector<CurveResult> others = curves(100.0, 2);
