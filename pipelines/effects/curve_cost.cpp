@@ -58,10 +58,12 @@ constexpr double hill = 2e-10;
 constexpr double hill_of_many = 4e-3;
 
 // A motion integrated in time, until it is periodic.
-constexpr double periods_from_rest = 250.0;
-constexpr double periods_of_a_step = 150.0;  // to the next frequency
-constexpr double point_period = 0.9e-3;      // one contact point, one period
-constexpr double points_of_a_step = 32.0;    // so many more, and steps are twice as many
+constexpr double decays_from_rest = 2.6;  // periods times damping ratio: a chain from 0.1 to 2 %
+constexpr double decays_of_a_step = 1.3;  // to the next frequency
+constexpr double most_periods = 5000.0;   // solver/time_options.hpp
+constexpr double most_beside_a_resonance = 250.0;  // at one frequency, where friction damps
+constexpr double point_period = 0.65e-3;           // one contact point, one period
+constexpr double points_of_a_step = 32.0;          // so many more, and steps are twice as many
 
 struct Size {
   double points = 0.0;
@@ -217,11 +219,31 @@ double check_seconds(const SceneDescription& scene, CurveEffects effects, Size s
   return of_a_check * evaluation_seconds(effects, size);
 }
 
+/// The least of all modes, as a mode decays in a period of the excitation; 0: not known.
+double least_decay(const SceneDescription& scene) {
+  if (const auto* modal = std::get_if<ModalModel>(&scene.model)) {
+    const double middle =
+        0.5 * (scene.response->frequency_begin_hz + scene.response->frequency_end_hz);
+    const Eigen::Index n = modal->frequency_hz.size() - modal->n_attachment;
+    const Eigen::ArrayXd decay =
+        modal->damping_ratio.head(n).array() * modal->frequency_hz.head(n).array() / middle;
+    return n > 0 ? decay.minCoeff() : 0.0;
+  }
+  const auto* ratios = std::get_if<std::vector<double>>(&scene.modes.damping);
+  return ratios != nullptr && !ratios->empty() ? std::ranges::min(*ratios) : 0.0;
+}
+
 double seconds_in_time(const SceneDescription& scene, const Size& size) {
-  const double steps = is_single_frequency(scene) ? 0.0 : scene.response->n_time_points - 1;
+  const double decay = least_decay(scene);
+  const auto periods = [&](double decays) {
+    return decay > 0.0 ? std::min(decays / decay, most_periods) : most_periods;
+  };
   const double period = std::max(size.points, 1.0) * point_period;
-  return n_curves(scene) * period * (1.0 + size.points / points_of_a_step) *
-         (periods_from_rest + steps * periods_of_a_step);
+  const double n_periods = is_single_frequency(scene)
+                               ? std::min(periods(decays_from_rest), most_beside_a_resonance)
+                               : periods(decays_from_rest) + (scene.response->n_time_points - 1) *
+                                                                 periods(decays_of_a_step);
+  return n_curves(scene) * period * (1.0 + size.points / points_of_a_step) * n_periods;
 }
 
 /// What a scene leaves out though it could have it, as a run puts it back: members of CurveEffects

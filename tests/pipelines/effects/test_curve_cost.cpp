@@ -157,5 +157,15 @@ TEST(CurveCost, AMotionInTimeCostsByItsFrequencies) {
   EXPECT_GT(in_time("80"), 1.5 * in_time("40"));
 }
 
+// What decays slowly takes long to become periodic, up to as many periods as are waited for.
+TEST(CurveCost, AMotionInTimeCostsByItsDamping) {
+  const auto with = [](const std::string& ratio) {
+    return seconds({"response.method=time", "modes.damping_ratio=" + ratio}).curves;
+  };
+  EXPECT_DOUBLE_EQ(with("0.005"), 4.0 * with("0.02"));
+  EXPECT_DOUBLE_EQ(with("1e-6"), with("1e-9"));
+  EXPECT_DOUBLE_EQ(with("1e-6"), with("0"));
+}
+
 }  // namespace
 }  // namespace microslip::pipelines::test_curve_cost
