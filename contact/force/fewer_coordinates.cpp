@@ -1,7 +1,10 @@
 #include "contact/force/fewer_coordinates.hpp"
 
+#include <cmath>
 #include <stdexcept>
 #include <utility>
+
+#include <Eigen/Eigenvalues>
 
 namespace microslip::contact {
 namespace {
@@ -16,12 +19,18 @@ Eigen::VectorXd to_modes(const Eigen::VectorXd& vector, const Eigen::MatrixXd& T
   return result;
 }
 
+/// The largest factor by which T lengthens a vector.
+double spectral_norm(const Eigen::MatrixXd& T) {
+  const Eigen::MatrixXd square = T * T.transpose();
+  return std::sqrt(square.selfadjointView<Eigen::Lower>().operatorNorm());
+}
+
 }  // namespace
 
 FewerCoordinates::FewerCoordinates(Eigen::MatrixXd of_modes, std::unique_ptr<ModalForce> force)
     : ModalForce(of_modes.cols()),
       of_modes_(std::move(of_modes)),
-      norm_(of_modes_.norm()),
+      norm_(spectral_norm(of_modes_)),
       force_(std::move(force)) {
   if (force_->n_modes() != of_modes_.rows()) {
     throw std::invalid_argument("FewerCoordinates: a force of another number of coordinates");

@@ -37,7 +37,7 @@ class FewerCoordinates final : public ModalForce {
   [[nodiscard]] Harmonics coordinates(const Harmonics& q) const;
 
   Eigen::MatrixXd of_modes_;
-  double norm_;  // of T
+  double norm_;  // of T, spectral
   std::unique_ptr<const ModalForce> force_;
 };
 
