@@ -11,6 +11,7 @@
 #include "pipelines/description/effects_left_out.hpp"
 #include "pipelines/effects/effect_choice.hpp"
 #include "pipelines/system/machine_speed.hpp"
+#include "solver/time_options.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -60,7 +61,6 @@ constexpr double hill_of_many = 4e-3;
 // A motion integrated in time, until it is periodic.
 constexpr double decays_from_rest = 2.6;  // periods times damping ratio: a chain from 0.1 to 2 %
 constexpr double decays_of_a_step = 1.3;  // to the next frequency
-constexpr double most_periods = 5000.0;   // solver/time_options.hpp
 constexpr double most_beside_a_resonance = 250.0;  // at one frequency, where friction damps
 constexpr double point_period = 0.65e-3;           // one contact point, one period
 constexpr double points_of_a_step = 32.0;          // so many more, and steps are twice as many
@@ -235,6 +235,7 @@ double least_decay(const SceneDescription& scene) {
 
 double seconds_in_time(const SceneDescription& scene, const Size& size) {
   const double decay = least_decay(scene);
+  const double most_periods = solver::TimeOptions{}.max_periods;
   const auto periods = [&](double decays) {
     return decay > 0.0 ? std::min(decays / decay, most_periods) : most_periods;
   };

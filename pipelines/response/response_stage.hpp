@@ -9,7 +9,7 @@
 
 namespace microslip::pipelines {
 
-/// The curve of one of them over the range of a scene.
+/// The curve of a linear limit over the range of a scene.
 [[nodiscard]] solver::ResponseCurve limit_curve(const ReducedModel& model,
                                                 const SceneDescription& scene, LimitName limit);
 
