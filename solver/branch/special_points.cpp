@@ -36,6 +36,10 @@ constexpr int max_parabolas = 8;
 // branch.
 constexpr double uneven = 1.5;
 constexpr double slight_turn = 0.01;  // rad: what turns less hides nothing that a curve could show
+// Of a smooth branch the cubic knows more of the slope than of the branch, which turns in hundreds
+// of directions: on five curves of the default blade with 17 and 19 harmonics slopes that passed
+// zero unseen were below 0.2 of the turn.
+constexpr double share_of_smooth_turn = 0.25;
 // A slope that is this small beside what the tangent turns may pass zero twice where the cubic does
 // not. Steep parts of a branch, where folds may hide, are few.
 constexpr double level_at_peak = 0.1;
@@ -89,6 +93,7 @@ class Segment {
         kind_(kind),
         places_(places),
         most_splits_(walker.is_sampled() ? max_splits_of_sampled : max_splits),
+        hiding_share_(walker.is_sampled() ? share_of_smooth_turn : 1.0),
         most_failed_(walker.is_sampled() ? most_failed_of_sampled : most_failed),
         slight_turn_(walker.is_sampled() ? slight_turn_of_sampled : slight_turn) {}
 
@@ -198,7 +203,7 @@ class Segment {
     const auto [less, more] = std::minmax(first, second);
     const double nearest = std::min(a.value.steepness(), b.value.steepness());
     const double turn = first + second;
-    if (turn > slight_turn_ && more > uneven * less && nearest < turn) return true;
+    if (turn > slight_turn_ && more > uneven * less && nearest < hiding_share_ * turn) return true;
     const bool same_sign = (a.value.slope > 0.0) == (b.value.slope > 0.0);
     if (turn > slight_turn_ && same_sign && nearest < nearly_level() * turn) return true;
     const double motion = std::max(a.tangent.x.norm(), b.tangent.x.norm());
@@ -359,6 +364,7 @@ class Segment {
   PointMark kind_;
   Places& places_;
   int most_splits_;
+  double hiding_share_;  ///< of a turn: slopes as small may change their sign
   int most_failed_;
   double slight_turn_;
   int n_failed_ = 0;
