@@ -44,13 +44,17 @@ struct OtherModel {
   /// Its modal coordinates from those of the model at hand, N' × N; empty: the same modes.
   Eigen::MatrixXd embedding{};
   double frequency_factor = 1.0;  ///< of its resonance, about, over that of the model at hand
+  /// Relative change of the amplitude that one step may tell, where it solves most of the equations
+  /// of the other model (theory section 24); 0: they are solved in any case.
+  double told_by_step = 0.0;
 };
 
 /// A peak of two models.
 struct PeakOfBoth {
   double frequency = 0.0, amplitude = 0.0;                        ///< of the curve [rad/s], [m]
-  double other_frequency = 0.0, other_amplitude = 0.0;            ///< solved for in the other model
+  double other_frequency = 0.0, other_amplitude = 0.0;            ///< in the other model
   double dissipated_energy = 0.0, other_dissipated_energy = 0.0;  ///< by friction in a period [J]
+  bool is_solved = true;  ///< in the other model; false: one step tells it
 };
 
 /// The highest peak of a curve, or end of its range, solved for again in another model with the

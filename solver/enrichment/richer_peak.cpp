@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <utility>
 #include <vector>
 
+#include "solver/balance/condensed.hpp"
 #include "solver/balance/first_harmonics.hpp"
+#include "solver/balance/output_amplitude.hpp"
 #include "solver/balance/period_energy.hpp"
 #include "solver/enrichment/carried_peak.hpp"
+#include "solver/enrichment/enrichment.hpp"
 #include "solver/enrichment/level_point.hpp"
 #include "solver/peak/high_points.hpp"
 
@@ -74,14 +78,38 @@ struct Carrier {
   const OtherModel& other;
   ContinuationOptions range;
 
-  [[nodiscard]] std::optional<LocalPeak> carried(const LocalPeak& peak) const {
+  [[nodiscard]] LocalPeak start_from(const LocalPeak& peak) const {
     LocalPeak start = peak;
     start.point.x = in_modes(from, to, peak.point.x, other.embedding);
     // An end of the range stays where it is.
     if (start.place == PeakPlace::peak) start.point.parameter *= other.frequency_factor;
     start.tangent.x = in_modes(from, to, peak.tangent.x, other.embedding);
+    return start;
+  }
+
+  [[nodiscard]] std::optional<LocalPeak> carried(const LocalPeak& peak) const {
     PeakWork work;
-    return level_point(to, start, range, work, farthest);
+    return level_point(to, start_from(peak), range, work, farthest);
+  }
+
+  /// One step across the branch, along which the amplitude is stationary. Empty: the change is
+  /// more than a step may tell, or it leaves too much of the residual.
+  [[nodiscard]] std::optional<LocalPeak> stepped(const LocalPeak& peak) const {
+    constexpr double most_left = 0.2;
+    LocalPeak at = start_from(peak);
+    const BalanceEvaluation here = to.evaluate(at.point.x, at.point.parameter);
+    const Eigen::Index n = at.point.x.size();
+    Eigen::VectorXd right(n + 1);
+    right << -here.residual / at.scaling.residual, 0.0;
+    const Eigen::VectorXd step = BorderedFactors(here, border_of(at), at.scaling).solve(right);
+    if (!step.allFinite()) return std::nullopt;
+    at.point.x += at.scaling.x * step.head(n);
+    at.point.parameter += at.scaling.parameter * step[n];
+    const Eigen::VectorXd left = to.residual(at.point.x, at.point.parameter).residual;
+    if (!(left.norm() <= most_left * here.residual.norm())) return std::nullopt;
+    at.amplitude = output_amplitude(to.harmonics(at.point.x), to.scene().output).half_peak_to_peak;
+    if (std::abs(at.amplitude / peak.amplitude - 1.0) > other.told_by_step) return std::nullopt;
+    return at;
   }
 };
 
@@ -138,7 +166,10 @@ std::optional<PeakOfBoth> peak_elsewhere(const Scene& scene, const ContinuationO
   if (!top) return std::nullopt;
   HarmonicBalance elsewhere(other.scene, balance.set());
   const Carrier carrier{balance, elsewhere, other, widened(range)};
-  std::optional<LocalPeak> found = carrier.carried(top->peak);
+  std::optional<LocalPeak> found;
+  if (other.told_by_step > 0.0) found = carrier.stepped(top->peak);
+  const bool is_solved = !found;
+  if (is_solved) found = carrier.carried(top->peak);
   // Much lower is another peak: the highest may be reached from points beside that of the curve.
   if (!found || found->amplitude < much_lower * top->point.amplitude) {
     for (const LocalPeak& beside : places_beside(balance, curve, top->point)) {
@@ -147,9 +178,13 @@ std::optional<PeakOfBoth> peak_elsewhere(const Scene& scene, const ContinuationO
     }
   }
   if (!found) return std::nullopt;
-  return PeakOfBoth{top->point.frequency,          top->point.amplitude,
-                    found->point.parameter,        found->amplitude,
-                    energy_of(balance, top->peak), energy_of(elsewhere, *found)};
+  return PeakOfBoth{top->point.frequency,
+                    top->point.amplitude,
+                    found->point.parameter,
+                    found->amplitude,
+                    energy_of(balance, top->peak),
+                    energy_of(elsewhere, *found),
+                    is_solved};
 }
 
 }  // namespace microslip::solver

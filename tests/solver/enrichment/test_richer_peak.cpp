@@ -55,6 +55,32 @@ TEST(RicherPeak, NothingChangesWhereHarmonicsAreManyAlready) {
   EXPECT_LT(std::abs(*found->change), 1e-3);
 }
 
+TEST(PeakElsewhere, OneStepTellsASmallChangeAndNoLargeOne) {
+  const ContinuationOptions options = given(5, ContinuationOptions::Corrector::newton);
+  for (const double preload : {20.0, 30.0}) {
+    Scene scene = tests::three_dof_scene(preload);
+    tests::use_event_cycles(scene);
+    const ResponseCurve curve = trace_response(scene, options);
+    Scene near = tests::three_dof_scene(1.005 * preload);
+    Scene far = tests::three_dof_scene(1.15 * preload);
+    tests::use_event_cycles(near);
+    tests::use_event_cycles(far);
+    const auto told = peak_elsewhere(scene, options, curve, {.scene = near, .told_by_step = 1e-3});
+    const auto solved = peak_elsewhere(scene, options, curve, {.scene = near});
+    const auto beyond = peak_elsewhere(scene, options, curve, {.scene = far, .told_by_step = 1e-3});
+    ASSERT_TRUE(told && solved && beyond) << preload;
+    EXPECT_FALSE(told->is_solved);
+    EXPECT_TRUE(solved->is_solved);
+    EXPECT_TRUE(beyond->is_solved);
+    const double change = solved->other_amplitude / solved->amplitude - 1.0;
+    std::printf("%g N: %+.3e, told %+.3e\n", preload, change,
+                told->other_amplitude / told->amplitude - 1.0);
+    EXPECT_GT(std::abs(change), 1e-4);
+    EXPECT_NEAR(told->other_amplitude / told->amplitude - 1.0, change, 0.1 * std::abs(change));
+    EXPECT_GT(std::abs(beyond->other_amplitude / beyond->amplitude - 1.0), 1e-3);
+  }
+}
+
 TEST(RicherPeak, NoCurveHasNone) {
   Scene scene = tests::three_dof_scene(50.0);
   const ContinuationOptions one = given(1, ContinuationOptions::Corrector::newton);
