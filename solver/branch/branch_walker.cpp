@@ -30,7 +30,17 @@ constexpr double angle_wanted = 0.13;  // rad per step
 // Where the predictor has learned the bend, and a plot as well.
 constexpr double learned_angle = 0.2;
 constexpr double correction_limit = 0.3;  // of the step: beyond, the point may be another branch's
-constexpr int modest_attempts = 2;        // of a step, without Newton's method
+constexpr double seen_step = 0.01;        // what a shorter one goes past shows on no curve
+// Angle between the chord and the mean of both tangents, as a share of that between these: a kink
+// anywhere in the step has half of it at most, an arc nothing.
+constexpr double most_swerve = 0.6;
+constexpr double sure_swerve = 0.1;   // 6°: below, a look halfway decides
+constexpr double seen_swerve = 0.03;  // worth that look
+// Distance from the cubic through both ends halfway, of the step, and as a share of the angle
+// between the tangents: a kink anywhere leaves an eighth of it at most.
+constexpr double most_off = 0.04;
+constexpr double most_off_by_turn = 0.15;
+constexpr int modest_attempts = 2;  // of a step, without Newton's method
 constexpr int wanted_iterations = 4;
 constexpr int wanted_updates = 12;  // of Broyden's method, by forces alone
 // Of a step, which is at most a fifth of a resonance wide: below it are rounding errors only.
@@ -43,6 +53,9 @@ void reverse(BranchVector& way) {
   way.x = -way.x;
   way.parameter = -way.parameter;
 }
+
+/// Of a small angle, by its cosine.
+double angle_of(double cosine) { return std::sqrt(std::max(2.0 - 2.0 * cosine, 0.0)); }
 
 }  // namespace
 
@@ -108,7 +121,38 @@ bool BranchWalker::smooth(const Trial& trial) const {
   // at which the branch turns back lies in between.
   const bool same =
       trial.orientation == 0.0 || orientation_ == 0.0 || trial.orientation == orientation_;
-  return same && trial.cosine > cosine_limit && trial.correction < correction_limit;
+  return same && trial.cosine > cosine_limit && trial.correction < correction_limit &&
+         swerve(trial) <= std::max(sure_swerve, most_swerve * angle_of(trial.cosine));
+}
+
+/// A branch that bends one way has its chord between both tangents. Where it lies beside them the
+/// step has gone over a bend and back, or over folds to a part of the branch beside this one.
+/// @return angle between the chord and the mean of the tangents; 0: too short a step to matter.
+double BranchWalker::swerve(const Trial& trial) const {
+  const WalkerPoint& to = trial.point;
+  const BranchVector chord = difference(to.solution.point, now_.solution.point, to.scaling);
+  const double size = length(chord);
+  if (size < seen_step) return 0.0;
+  const BranchVector from = rescaled(now_.tangent, now_.scaling, to.scaling);
+  const double along = dot(chord, from) + dot(chord, to.tangent);
+  return angle_of(along / (size * std::sqrt(2.0 + 2.0 * trial.cosine)));
+}
+
+/// Whether the branch halfway is not where both ends of the step and their tangents have it. Asked
+/// where the chord swerves; of forces that are sampled, whose Jacobian is dear, never.
+bool BranchWalker::is_elsewhere_halfway(const Trial& trial) {
+  if (residual_ || swerve(trial) < seen_swerve) return false;
+  const Scaling& scaling = now_.scaling;
+  BranchVector chord = difference(trial.point.solution.point, now_.solution.point, scaling);
+  const double size = length(chord);
+  chord.x /= size;
+  chord.parameter /= size;
+  const BranchVector middle = cubic_between(Knot(now_, chord, size, scaling),
+                                            Knot(trial.point, chord, size, scaling), 0.5, 1.0);
+  const NewtonResult next = solve_newton(system_, middle, chord, scaling, {tolerance_, 1});
+  evaluations_ += next.evaluations;
+  const double off = length(difference(next.point, middle, scaling)) / size;
+  return off > std::max(most_off, most_off_by_turn * angle_of(trial.cosine));
 }
 
 /// What lies behind a trial, three steps back along its own tangent.
@@ -195,7 +239,7 @@ bool BranchWalker::advance() {
     const bool back = !residual_ && flips == (trial.cosine > 0.0);
     const double sharp = against ? tip_step : (back ? turning_step : kink_step);
     const bool kink = step_ < sharp && trial.correction < kink_correction;
-    if (trial.converged && (smooth(trial) || kink)) {
+    if (trial.converged && (kink || (smooth(trial) && !is_elsewhere_halfway(trial)))) {
       trial.tip = against && beyond_a_tip(trial);
       trial.bent = flips && crosses_bent(trial);
       if (failed) remember(Remedy::shorter_step);

@@ -101,6 +101,8 @@ class BranchWalker {
   [[nodiscard]] Trial corrected(const BranchVector& predicted, const BranchVector& direction,
                                 double length, int max_iterations);
   [[nodiscard]] bool smooth(const Trial& trial) const;
+  [[nodiscard]] double swerve(const Trial& trial) const;
+  [[nodiscard]] bool is_elsewhere_halfway(const Trial& trial);
   [[nodiscard]] Trial behind(const Trial& trial);
   [[nodiscard]] bool beyond_a_tip(const Trial& trial);
   [[nodiscard]] bool crosses_bent(const Trial& trial);

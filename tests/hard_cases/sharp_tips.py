@@ -12,8 +12,9 @@ in which the branch goes on. Where folds are sought behind a kink Newton's metho
 From: random scenes, 53.54 (five points with gaps, friction in a plane), 83.15 (friction that falls with the speed: a branch
 point in a bend), 29.163 (hyperbolic law: a stall on the way against the range; with 5 % damping two events at once), 113.83 (a chain
 that parts: a step from before a kink to the part beyond it, which comes back), 113.225 (exponential law: four events at once)
-and 127.215 (friction in a plane: a point that sticks with a load of the mean begins to slip, two folds and one on the part walked before).
-Right: complete, no fold is passed twice, and from end to end they are even in number.
+127.215 (friction in a plane: a point that sticks with a load of the mean begins to slip, two folds and one on the part walked before)
+and 501.30 (hyperbolic law: a step over three pairs of folds to a part of the branch beside the one it came by).
+Right: complete, no fold is passed twice, from end to end they are even in number, and a part of the range has none more.
 
 usage: sharp_tips.py MICROSLIP WORK_FOLDER
 """
@@ -65,6 +66,14 @@ def main(program, folder):
     code, curve = solved(program, os.path.join(folder, "beside"), (127, 215), "response.frequency=[6.75, 6.9]")
     print(f"127.215 from 6.75 to 6.9 Hz: {curve['points']} points, folds at {curve['folds_Hz']}")
     assert code == 0 and len(curve["folds_Hz"]) == 2, curve["folds_Hz"]
+
+    _, part = solved(program, os.path.join(folder, "part"), (501, 30), "response.frequency=[5.2, 4.4]")
+    code, curve = solved(program, os.path.join(folder, "whole"), (501, 30))
+    print(f"501.30: {curve['points']} points, {len(curve['folds_Hz'])} folds, of which from 5.2 to 4.4 Hz {len(part['folds_Hz'])}")
+    assert code == 0 and curve["complete"], curve["message"]
+    assert len(part["folds_Hz"]) == 6, part["folds_Hz"]
+    lacks = [one for one in part["folds_Hz"] if all(abs(one - other) > 1e-9 * one for other in curve["folds_Hz"])]
+    assert not lacks, lacks
 
 
 if __name__ == "__main__":

@@ -221,5 +221,34 @@ TEST(BranchWalker, AKinkIsLeftIntoTheRegimeItsTangentEndsIn) {
   EXPECT_EQ(n_kinks, 20);
 }
 
+/// p = x − a tanh(x / w): the branch turns back on its way from one line to another beside it, and
+/// for steps longer than w both are as good.
+TEST(BranchWalker, AStepDoesNotLeadPastTwoFolds) {
+  int n_walks = 0;
+  for (const double half_offset : {0.015, 0.02, 0.03, 0.04}) {
+    for (const double width : {0.003, 0.006, 0.01}) {
+      const ParametricSystem system = [=](const Eigen::VectorXd& x, double p) {
+        const double rise = std::tanh(x[0] / width);
+        return evaluation(p - x[0] + half_offset * rise,
+                          -1.0 + half_offset / width * (1.0 - rise * rise), 1.0);
+      };
+      // Where the steps end before the folds is chance.
+      for (const double share : {1.0, 1.03, 1.07, 1.11, 1.17}) {
+        SCOPED_TRACE(testing::Message() << half_offset << ' ' << width << ' ' << share);
+        const double begin = -share;
+        BranchWalker walker = walker_from(system, begin, begin + half_offset);
+        int n_folds = 0;
+        while (x_of(walker) < 1.0) {
+          ASSERT_TRUE(walker.advance());
+          if (walker.now().tangent.parameter * walker.before().tangent.parameter < 0.0) ++n_folds;
+        }
+        EXPECT_EQ(n_folds, 2);
+        ++n_walks;
+      }
+    }
+  }
+  EXPECT_EQ(n_walks, 60);
+}
+
 }  // namespace
 }  // namespace microslip::solver::test_branch_walker
