@@ -31,7 +31,7 @@ class Iteration {
     now_ = std::move(start);
     const double tolerance = std::max(options.tolerance, scaling_.rounding);
     for (int i = 0; i < options.max_iterations && now_.residual > tolerance; ++i) {
-      if (options.is_stopped()) break;
+      if (options.is_stopped() || now_.evaluations >= options.max_evaluations) break;
       if (!step(i)) break;
       ++now_.iterations;
     }

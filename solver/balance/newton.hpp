@@ -5,6 +5,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -45,6 +46,8 @@ struct NewtonOptions {
   int max_iterations = 15;   ///< 0: no step of Newton's method (few_jacobians.hpp)
   /// Asked between steps, which of a fine patch take up to a second: true ends them, not converged.
   const std::function<bool()>* stop = nullptr;
+  /// Steps of the line search among them: no step of Newton's method begins beyond.
+  int max_evaluations = std::numeric_limits<int>::max();
   [[nodiscard]] bool is_stopped() const { return stop != nullptr && *stop && (*stop)(); }
 };
 

@@ -41,6 +41,10 @@ constexpr double seen_swerve = 0.03;  // worth that look
 constexpr double most_off = 0.04;
 constexpr double most_off_by_turn = 0.15;
 constexpr int modest_attempts = 2;  // of a step, without Newton's method
+// Of a step that may be halved: one in a thousand of those that converge takes more than nine, and
+// those that do not would take forty.
+constexpr int most_evaluations = 12;
+constexpr int most_iterations = 10;  // of such a step
 constexpr int wanted_iterations = 4;
 constexpr int wanted_updates = 12;  // of Broyden's method, by forces alone
 // Of a step, which is at most a fifth of a resonance wide: below it are rounding errors only.
@@ -88,7 +92,8 @@ BranchWalker::Trial BranchWalker::corrected(const BranchVector& predicted,
                                             const BranchVector& direction, double distance,
                                             int max_iterations) {
   Trial trial;
-  const NewtonOptions options{tolerance_, max_iterations};
+  NewtonOptions options{tolerance_, max_iterations};
+  if (!residual_ && max_iterations == most_iterations) options.max_evaluations = most_evaluations;
   NewtonResult solution = solved(predicted, direction, options, now_);
   evaluations_ += solution.evaluations;
   iterations_ += solution.iterations;
@@ -212,7 +217,7 @@ BranchWalker::Trial BranchWalker::limited(Trial trial, double distance) {
   const long n_forced = states_.n_forced();
   double share = states_.first_cut(now_, trial.point, distance);
   for (int i = 0; i < most_cuts && share < 1.0; ++i) {
-    Trial shorter = attempt(share * distance, 10);
+    Trial shorter = attempt(share * distance, most_iterations);
     if (!shorter.converged || !smooth(shorter)) break;
     trial = std::move(shorter);
     distance *= share;
@@ -232,7 +237,7 @@ bool BranchWalker::advance() {
   bool failed = false;
   int modest = residual_ ? modest_attempts : 0;
   while (step_ >= shortest_step) {
-    Trial trial = attempt(step_, modest-- > 0 ? 0 : 10);
+    Trial trial = attempt(step_, modest-- > 0 ? 0 : most_iterations);
     // By factors of another place the determinant is not known to so short a step.
     const bool flips = trial.orientation * orientation_ < 0.0;
     const bool against = !residual_ && flips && trial.cosine > cosine_limit;

@@ -37,6 +37,19 @@ TEST(Newton, SaysWhenItDoesNotConverge) {
   EXPECT_FALSE(solve_newton(system, at(0.7, 0.0), Scaling{}, {}).converged);
 }
 
+TEST(Newton, EndsAtTheEvaluationsGiven) {
+  const ParametricSystem system = [](const Eigen::VectorXd& x, double) {
+    return scalar(x[0] * x[0] + 1.0, 2.0 * x[0], 0.0);
+  };
+  const NewtonResult all = solve_newton(system, at(0.7, 0.0), Scaling{}, {.max_iterations = 40});
+  const NewtonResult few =
+      solve_newton(system, at(0.7, 0.0), Scaling{}, {.max_iterations = 40, .max_evaluations = 3});
+  constexpr int of_a_line_search = 8;
+  EXPECT_GT(all.evaluations, 3 + of_a_line_search);
+  EXPECT_LE(few.evaluations, 3 + of_a_line_search);
+  EXPECT_FALSE(few.converged);
+}
+
 TEST(Newton, NonFiniteForcesEndTheIteration) {
   const ParametricSystem system = [](const Eigen::VectorXd&, double) {
     return scalar(std::nan(""), 1.0, 0.0);
