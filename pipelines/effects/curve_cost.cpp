@@ -50,9 +50,11 @@ constexpr int harmonics_of_a_choice_on_a_mesh = 9;
 constexpr int harmonics_of_a_choice_in_plane = 12;
 constexpr double period_map = 2.2e-4;          // of a point in scenes of few states, over harmonics
 constexpr double states_of_a_period_map = 16;  // at most (solver/stability/stability.hpp)
-constexpr double of_events_in_a_period = 10.0;  // where several points open and close
-constexpr double factorisation = 6e-11;         // over the cube of the unknowns
-constexpr double few_factorisations = 0.5;      // of evaluations that are cheap without derivatives
+// As many times where loads vary, so that instants of slip and opening are looked for.
+constexpr double of_events_in_a_period = 2.5;
+constexpr double of_many_events_in_a_period = 10.0;  // of several points
+constexpr double factorisation = 6e-11;              // over the cube of the unknowns
+constexpr double few_factorisations = 0.5;  // of evaluations that are cheap without derivatives
 // Hill's exponents of a point, over the cube of the unknowns up to where states are condensed; a
 // part of what evaluations take.
 constexpr double hill = 2e-10;
@@ -102,14 +104,21 @@ double n_points(const SceneDescription& scene, bool areas) {
   return n;
 }
 
+/// In a scene of numbers.
+bool has_varying_loads(const SceneDescription& scene) {
+  const auto* modal = std::get_if<ModalModel>(&scene.model);
+  if (modal == nullptr || modal->shapes.v.isZero(0.0)) return false;
+  return setting_of(scene, "normal_motion") != "off" &&
+         std::ranges::any_of(modal->points,
+                             [](const auto& point) { return point.normal_stiffness > 0.0; });
+}
+
 /// Of numbers: even harmonics are no unknowns then (continuation_options()).
 bool has_odd_motions(const SceneDescription& scene, const CurveEffects& effects) {
   const auto* modal = std::get_if<ModalModel>(&scene.model);
   if (modal == nullptr || effects.roughness || effects.rate_dependence) return false;
   if (modal->force_static.size() > 0 && !modal->force_static.isZero(0.0)) return false;
-  return setting_of(scene, "normal_motion") == "off" || modal->shapes.v.isZero(0.0) ||
-         std::ranges::none_of(modal->points,
-                              [](const auto& point) { return point.normal_stiffness > 0.0; });
+  return !has_varying_loads(scene);
 }
 
 Size size_of(const SceneDescription& scene, const CurveEffects& effects) {
@@ -160,17 +169,11 @@ double point_seconds(const CurveEffects& effects, const Size& size) {
   return 130.0 * surface * (1.0 + 0.13 * more) * microsecond;
 }
 
-/// Of points of a scene of numbers, of which several have a load that varies; those of a mesh are
-/// many, and have no events located.
+/// Of several points whose loads vary; those of a mesh are many, and have no events located.
 bool has_many_events(const SceneDescription& scene, const Size& size) {
-  const auto* modal = std::get_if<ModalModel>(&scene.model);
-  if (modal == nullptr || size.points < 2.0 || setting_of(scene, "normal_motion") == "off") {
-    return false;
-  }
-  const bool varies = std::ranges::any_of(
-      modal->points, [](const auto& point) { return point.normal_stiffness > 0.0; });
+  if (size.points < 2.0 || !has_varying_loads(scene)) return false;
   const auto n = std::llround(size.points);
-  return varies && contact::method_for(n, false, size.harmonics) == contact::Method::point_methods;
+  return contact::method_for(n, false, size.harmonics) == contact::Method::point_methods;
 }
 
 bool opens_at_once(const SceneDescription& scene, const CurveEffects& effects) {
@@ -198,7 +201,9 @@ double stability_seconds(const SceneDescription& scene, const CurveEffects& effe
   if (size.harmonics == 1) return 0.0;
   const bool in_time =
       !effects.second_direction && 2.0 * size.modes + size.points <= states_of_a_period_map;
-  const double events = has_many_events(scene, size) ? of_events_in_a_period : 1.0;
+  const double events = has_many_events(scene, size) ? of_many_events_in_a_period
+                        : has_varying_loads(scene)   ? of_events_in_a_period
+                                                     : 1.0;
   if (in_time) return effects.stability ? events * size.harmonics * period_map : 0.0;
   return effects.stability ? 0.0 : -std::min(hill * cube_of_unknowns(size), hill_of_many);
 }

@@ -41,6 +41,8 @@ BOTH = "effects.second_direction=on"
 FEW = {
     "area, 9 harmonics": (f"{SCENES}/chain_2dof_moment.toml", ["response.maps=[]"]),
     "chain, auto": chain("response.harmonics=auto", *NO_SEARCH),
+    # Multipliers of periods in which the load varies take most of it.
+    "point that opens, 9": (f"{SCENES}/chain_3dof_normal.toml", ["response.harmonics=9", "response.preload=[5, 10, 20, 35, 50, 80]"]),
     "chain, in time": chain("response.method=time", "response.preload=[50]", *NO_SEARCH),
     "chain, best value": chain("response.harmonics=5"),
     "blade, 3 harmonics": blade(3, "[100, 500]"),
