@@ -69,6 +69,21 @@ double turning_size(const ReducedModel& model, const SceneDescription& scene) {
   return largest_turning(model, turning_forces(model, scene), smallest_force(model, scene));
 }
 
+/// Root mean square of the pressure's variation over its mean, the largest of all patches, over √3:
+/// of a pressure that varies linearly its moment over load times half the size.
+double uneven_pressure(const ReducedModel& model) {
+  double most = 0.0;
+  for (const contact::Patch& patch : model.patches) {
+    const Eigen::VectorXd& weights = patch.cells.weights;
+    const Eigen::ArrayXd pressure = patch.cells.preload_field.array().max(0.0);
+    const double mean = weights.dot(pressure.matrix()) / weights.sum();
+    if (!(mean > 0.0)) continue;
+    const double square = weights.dot((pressure / mean - 1.0).square().matrix()) / weights.sum();
+    most = std::max(most, std::sqrt(square / 3.0));
+  }
+  return most;
+}
+
 double half_size(const Eigen::VectorXd& places) {
   return 0.5 * (places.maxCoeff() - places.minCoeff());
 }
@@ -100,7 +115,7 @@ std::optional<double> tilt_size(const ReducedModel& model, const SceneDescriptio
     const SceneDescription with = with_effect(scene, "moments");
     return tilt_size(reduced_model(with), with);
   }
-  double most = turning_size(model, scene);
+  double most = std::max(turning_size(model, scene), uneven_pressure(model));
   const double force = smallest_force(model, scene);
   for (const contact::Patch& patch : model.patches) {
     for (const contact::TiltedArea& area : patch.tilted_areas) {

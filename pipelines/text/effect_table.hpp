@@ -53,7 +53,8 @@ inline constexpr std::array effect_table{
               "change of the coefficient up to the highest speed of the linear limits", 0.01,
               "the coefficient is the same at every speed of slip"},
     EffectRow{"moments", "areas of contact, which carry moments",
-              "moment over load times half the size", 1.0 / 3.0,
+              "moment over load times half the size, or unevenness of the pressure at rest",
+              1.0 / 3.0,
               "a contact point carries forces alone: turning neither loads nor opens it"},
     EffectRow{"residual", "residual flexibility of omitted modes",
               "change of the stuck frequency nearest to the range, or share in the flexibility of "

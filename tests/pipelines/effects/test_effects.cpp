@@ -457,6 +457,23 @@ TEST(Effects, TurningIsWhatMomentsAreFor) {
   EXPECT_EQ(told("auto", {"effects.normal_motion=off"}).indicator, 0.0);
 }
 
+// 4 and 0.8 N: the pressure varies by 2/3 of its mean, and no moment of it is asked for.
+TEST(Effects, APressureThatIsUnevenIsWhatMomentsAreFor) {
+  const auto told = [](const char* setting) {
+    const SceneDescription scene =
+        scene_of({"modal.points=[{ weight = 1, tangential_stiffness = 3e3, normal_stiffness = 0, "
+                  "friction_coefficient = 0.5, preload = 4, phi_u_1 = 1, p = 0, r = 0 }, "
+                  "{ weight = 1, tangential_stiffness = 3e3, normal_stiffness = 0, "
+                  "friction_coefficient = 0.5, preload = 0.8, phi_u_1 = 1, p = 1, r = 0 }]",
+                  std::string("effects.moments=") + setting});
+    const ReducedModel model = model_in(scene);
+    return effect_in(effects_of(scene, &model), "moments");
+  };
+  EXPECT_NEAR(*told("auto").indicator, 2.0 / 3.0 / std::sqrt(3.0), 1e-12);
+  EXPECT_NEAR(*told("off").indicator, 2.0 / 3.0 / std::sqrt(3.0), 1e-12);
+  EXPECT_FALSE(told("off").objection.empty());
+}
+
 TEST(Effects, PointsThatStayOpenAreCounted) {
   const SceneDescription scene =
       parse_scene(text, "scene.toml", "/nowhere", {"effects.normal_motion=off"});
