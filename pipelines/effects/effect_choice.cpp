@@ -298,11 +298,18 @@ EffectDecision local_frames(const EffectFacts& facts) {
   const double off =
       faces.empty() ? 0.0 : std::ranges::max(faces, {}, &FaceShape::off_plane).off_plane;
   const bool local = std::ranges::any_of(faces, &FaceShape::local_frames);
+  constexpr double flat = 1e-9;  // what a mesher rounds
+  if (!local && setting == "auto" && off < flat) {
+    EffectDecision plane = cannot("the face is plane");
+    plane.indicator = off;
+    return plane;
+  }
   EffectDecision decision =
       by(local || setting == "on",
          setting == "off" ? "effects.local_frames = \"off\": a face is simulated as its mean plane"
          : local ? "normal and slip direction are those of every place of a face that is not plane"
-                 : "a face that is plane has one frame");
+                 : fmt::format("nodes are off the mean plane by {} of the size of the face",
+                               percent_text(off)));
   if (!faces.empty()) decision.indicator = off;
   return decision;
 }

@@ -474,6 +474,24 @@ TEST(Effects, APressureThatIsUnevenIsWhatMomentsAreFor) {
   EXPECT_FALSE(told("off").objection.empty());
 }
 
+TEST(Effects, OfAPlaneFaceNothingIsLostWithoutLocalFrames) {
+  const SceneDescription scene = read_scene(MICROSLIP_SCENES "/blade_to_ground.toml", {});
+  ReducedModel model;
+  model.patches.resize(1);
+  EffectFacts facts{.scene = scene, .model = &model};
+  facts.has_contact = true;
+  const EffectRow& row = effect_row("local_frames");
+  const EffectDecision plane = decide(row, facts);
+  EXPECT_EQ(plane.reason, "the face is plane");
+  EXPECT_FALSE(plane.can_be);
+  EXPECT_EQ(plane.indicator, 0.0);
+  model.patches[0].off_plane = 0.005;
+  const EffectDecision nearly = decide(row, facts);
+  EXPECT_EQ(nearly.simulated, Simulated::no);
+  EXPECT_TRUE(nearly.can_be);
+  EXPECT_NE(nearly.reason.find("0.5 %"), std::string::npos) << nearly.reason;
+}
+
 TEST(Effects, PointsThatStayOpenAreCounted) {
   const SceneDescription scene =
       parse_scene(text, "scene.toml", "/nowhere", {"effects.normal_motion=off"});
