@@ -512,8 +512,8 @@ EffectDecision decide(const EffectRow& row, const EffectFacts& facts) {
   const auto found = std::ranges::find(choosers, row.name, &Chooser::name);
   if (found == choosers.end()) throw std::out_of_range("no effect " + std::string(row.name));
   if (const EffectLeftOut* effect = left_out(facts.scene, row.name)) return without(*effect, facts);
-  const bool of_loads = std::ranges::find(effects_of_loads, row.name) != effects_of_loads.end();
-  if (of_loads && facts.has_contact && is_linear_study(facts.scene)) return cannot(limits_alone);
+  if (row.of_loads && facts.has_contact && is_linear_study(facts.scene))
+    return cannot(limits_alone);
   return found->decide(facts);
 }
 

@@ -200,7 +200,7 @@ constexpr std::string_view without_normal_motion =
 constexpr std::string_view without_nonlinearity =
     "contradicts effects.nonlinearity = \"off\": then contact is a spring, or nothing";
 
-/// Of each of effects_of_loads.
+/// Of each effect of loads.
 bool has_limits_alone(const SceneDescription& scene) {
   return has_contact(scene) && is_linear_study(scene);
 }
@@ -389,8 +389,10 @@ void read_effects(const SectionReader& s, const toml::table& given, SceneDescrip
            s.node(effect));
   };
   std::ranges::for_each(contradictions, refuse);
-  for (const std::string_view effect : effects_of_loads) {
-    refuse({effect, "on", has_limits_alone, without_load, {"response.preload"}});
+  for (const EffectRow& row : effect_table) {
+    if (row.of_loads) {
+      refuse({row.name, "on", has_limits_alone, without_load, {"response.preload"}});
+    }
   }
   if (const std::string frames = setting_of(scene, "local_frames"); frames != "auto") {
     for (ContactDescription& contact : scene.contacts) contact.local_frames = frames == "on";

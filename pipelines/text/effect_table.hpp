@@ -22,6 +22,8 @@ struct EffectRow {
   std::string_view quantity;  ///< what the indicator is, or why there is none
   double threshold;           ///< of the indicator
   std::string_view lost;      ///< without the effect
+  /// Of contact under a load: the linear limits have nothing of it.
+  bool of_loads = false;
 };
 
 inline constexpr double no_threshold = std::numeric_limits<double>::infinity();
@@ -29,15 +31,15 @@ inline constexpr double no_threshold = std::numeric_limits<double>::infinity();
 inline constexpr std::array effect_table{
     EffectRow{"nonlinearity", "contact that slips, opens and closes, and is no spring",
               "force of the stuck limit over what friction holds, or approach over gap", 1.0,
-              "contact answers like springs, or not at all"},
+              "contact answers like springs, or not at all", true},
     EffectRow{"normal_motion", "load variation by normal motion",
               "change of load over load, or share of the normal springs in the strain energy", 1e-4,
               "the load stays that of rest, nothing opens, and the normal springs are missing"},
     EffectRow{"separation", "one-sided contact", "change of load over load", 1.0,
-              "contact never opens, whatever the motion"},
+              "contact never opens, whatever the motion", true},
     EffectRow{"mean_coupling", "mean motion changes the load",
               "mean change of load over load, at most", 0.01,
-              "the load varies about that of rest whatever the mean motion"},
+              "the load varies about that of rest whatever the mean motion", true},
     EffectRow{"second_direction", "friction along r as well", "motion along r over that along p",
               0.03, "friction along r neither holds nor takes energy"},
     EffectRow{"higher_harmonics", "harmonics above the first",
@@ -46,12 +48,13 @@ inline constexpr std::array effect_table{
               "frequency, divided by k^2",
               5e-3,
               "what contact drives at multiples of the frequency is missing, seen to change peaks "
-              "by a third"},
+              "by a third",
+              true},
     EffectRow{"roughness", "rough surfaces", "height of the roughness over the compression at rest",
-              0.1, "surfaces are as stiff under a small load as in full contact"},
+              0.1, "surfaces are as stiff under a small load as in full contact", true},
     EffectRow{"rate_dependence", "friction coefficient by slip speed",
               "change of the coefficient up to the highest speed of the linear limits", 0.01,
-              "the coefficient is the same at every speed of slip"},
+              "the coefficient is the same at every speed of slip", true},
     EffectRow{"moments", "areas of contact, which carry moments",
               "moment over load times half the size, or unevenness of the pressure at rest",
               1.0 / 3.0,
@@ -81,13 +84,8 @@ inline constexpr std::array effect_table{
     EffectRow{"coexistence", "search for other solutions beside those found",
               "approach over gap, change of load over load, or force over friction that falls with "
               "speed, at resonances near by",
-              1.0, "a solution that no sweep meets is not seen"},
+              1.0, "a solution that no sweep meets is not seen", true},
 };
-
-/// Those of contact under a load: the linear limits have nothing of them.
-inline constexpr std::array<std::string_view, 7> effects_of_loads{
-    "nonlinearity", "separation",      "mean_coupling", "higher_harmonics",
-    "roughness",    "rate_dependence", "coexistence"};
 
 /// Motion of given modes along r is meant: their threshold of `second_direction`. Below it friction
 /// there does 5e-9 of the work, at four times the seconds of a curve.
