@@ -180,7 +180,11 @@ std::string Progress::time_text(Clock::time_point now) const {
   if (left > 0.0) return text + ", some " + duration_text(left) + " left";
   if (expected_ == 0.0) return text;
   const double before = Seconds(part_begin_ - stage_begin_).count();
-  return text + ", where " + duration_text(before + expected_) + " were expected";
+  text += ", where " + duration_text(before + expected_) + " were expected: ";
+  constexpr double forecasts_hold = 2.0;  // to this factor (tests/verification/forecasts.py)
+  const double at_most = left + (forecasts_hold - 1.0) * expected_;
+  if (at_most <= 0.0) return text + "how much is left is not known";
+  return text + duration_text(at_most) + " more at most if that is right to a factor of two";
 }
 
 void Progress::tell_time(const std::stop_token& stop) {
