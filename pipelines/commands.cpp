@@ -187,7 +187,8 @@ int check(Arguments& arguments) {
   }
   const InterruptWatch watch;
   const ResultCache cache(cache_of(arguments), [](const auto& line) { std::cout << line << '\n'; });
-  const CheckResult result = check_study(scene, arguments.picture.value_or(""), std::cout);
+  const CheckResult result =
+      check_study(scene, arguments.picture.value_or(""), std::cout, options_of(arguments, {}));
   const Forecast& forecast = result.forecast;
   nlohmann::ordered_json& cost = arguments.findings["forecast"];
   cost = {{"degrees_of_freedom", forecast.degrees_of_freedom},

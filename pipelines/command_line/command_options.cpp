@@ -52,11 +52,23 @@ void add_init(CLI::App& app, Arguments& a, Action& chosen) {
   with_output(command, a, "file to write; it must not exist");
 }
 
+CLI::App* with_parts(CLI::App* command, Arguments& a) {
+  command
+      ->add_option("--without", a.without,
+                   "leaves a part out; may be repeated: plots (and report.html), maps (and the "
+                   "motion at the peaks), bracket (of a search for a best value)")
+      ->take_all()
+      ->expected(1)
+      ->check(CLI::IsMember({"plots", "maps", "bracket"}));
+  return command;
+}
+
 void add_check(CLI::App& app, Arguments& a, Action& chosen) {
-  with_scene(add_command(app, a, chosen, "check",
-                         "parse, check units and names, show mesh, effects and forecast; question "
-                         "what is unusual; solve nothing",
-                         [&] { return check(a); }),
+  with_scene(with_parts(add_command(app, a, chosen, "check",
+                                    "parse, check units and names, show mesh, effects and "
+                                    "forecast; question what is unusual; solve nothing",
+                                    [&] { return check(a); }),
+                        a),
              a)
       ->add_option("--plot", a.picture,
                    "picture of the blade with supports, contacts, forces and output marked, for "
@@ -103,14 +115,7 @@ void add_run(CLI::App& app, Arguments& a, Action& chosen) {
       with_scene(add_command(app, a, chosen, "run", "everything: modes, curves, maps, report",
                              [&] { return run_scene(a, run_study); }),
                  a);
-  with_output(command, a, "run folder; default runs/SCENE");
-  command
-      ->add_option("--without", a.without,
-                   "leaves a part out; may be repeated: plots (and report.html), maps (and the "
-                   "motion at the peaks), bracket (of a search for a best value)")
-      ->take_all()
-      ->expected(1)
-      ->check(CLI::IsMember({"plots", "maps", "bracket"}));
+  with_output(with_parts(command, a), a, "run folder; default runs/SCENE");
 }
 
 void add_campbell(CLI::App& app, Arguments& a, Action& chosen) {

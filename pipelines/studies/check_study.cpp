@@ -81,13 +81,22 @@ Forecast forecast_of(const mesh::Mesh& mesh, const SceneDescription& scene,
   return forecast;
 }
 
+/// What a run is told to leave out is no part of what one costs.
+void leave_out(const RunOptions& options, Forecast& forecast) {
+  if (!options.plots) forecast.pictures.plots = 0.0;
+  if (!options.maps) forecast.pictures.maps = 0.0;
+  if (options.bracket) return;
+  forecast.response.bracket = 0.0;
+  if (forecast.response_along_r) forecast.response_along_r->bracket = 0.0;
+}
+
 std::string text_of(const ResponseSeconds& seconds) {
   std::string text = fmt::format("curves {:.2g} s", seconds.curves);
   if (seconds.errors > 0.0) text += fmt::format(", their errors {:.2g} s", seconds.errors);
   if (seconds.best_value > 0.0) {
-    text += fmt::format(", best value {:.2g} s and its bracket {:.2g} s", seconds.best_value,
-                        seconds.bracket);
+    text += fmt::format(", best value {:.2g} s", seconds.best_value);
   }
+  if (seconds.bracket > 0.0) text += fmt::format(" and its bracket {:.2g} s", seconds.bracket);
   return text;
 }
 
@@ -257,7 +266,8 @@ std::string static_preload_in(const mesh::Mesh& mesh, const SceneDescription& sc
 
 /// @return the model, where the scene brings its modes.
 std::optional<ReducedModel> check_meshed(const SceneDescription& scene,
-                                         const std::filesystem::path& picture, CheckResult& result,
+                                         const std::filesystem::path& picture,
+                                         const RunOptions& options, CheckResult& result,
                                          std::ostream& out) {
   const TemporaryFolder folder;
   require_memory_before_mesh(scene);
@@ -289,6 +299,7 @@ std::optional<ReducedModel> check_meshed(const SceneDescription& scene,
     if (!failure.empty()) result.warnings.push_back("--plot: " + failure);
   }
   result.forecast = forecast_of(mesh, scene, model ? &*model : nullptr);
+  leave_out(options, result.forecast);
   describe(result.forecast, scene.response.has_value(), out);
   describe(scene.accuracy, out);
   if (given_modes(scene) == nullptr) {
@@ -325,7 +336,7 @@ std::string verdict(const SceneDescription& scene, std::size_t n_warnings) {
 }  // namespace
 
 CheckResult check_study(const SceneDescription& scene, const std::filesystem::path& picture,
-                        std::ostream& out) {
+                        std::ostream& out, const RunOptions& options) {
   if (scene.response) require_response(scene);
   CheckResult result;
   result.warnings = scene_warnings(scene);
@@ -341,10 +352,11 @@ CheckResult check_study(const SceneDescription& scene, const std::filesystem::pa
     result.effects = effects_of(scene, &model);
     result.forecast.memory_gb = memory_without_a_mesh;
     add_curves(scene, &model, result.forecast);
+    leave_out(options, result.forecast);
     describe(result.forecast, scene.response.has_value(), out);
     describe(scene.accuracy, out);
   } else {
-    modes_are_known = check_meshed(scene, picture, result, out).has_value();
+    modes_are_known = check_meshed(scene, picture, options, result, out).has_value();
   }
   for (const EffectRecord& effect : result.effects) {
     if (effect.objection.empty()) continue;

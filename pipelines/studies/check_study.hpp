@@ -11,6 +11,7 @@
 #include "pipelines/description/scene_description.hpp"
 #include "pipelines/effects/curve_cost.hpp"
 #include "pipelines/effects/effect_record.hpp"
+#include "pipelines/record/run_options.hpp"
 #include "pipelines/stages/stage_seconds.hpp"
 #include "pipelines/structure/solver_memory.hpp"
 
@@ -39,11 +40,12 @@ struct CheckResult {
 /// unusual. Modes are asked where they are given, kept by an earlier run, or solved for in seconds;
 /// no curve is solved for.
 /// @param picture  of the blade with its places marked is drawn into this file; empty: none.
+/// @param options  of the run that is forecast: which parts it leaves out.
 /// @throws SceneError  the scene cannot be used, or has no mesh to draw.
 /// @throws fem::MemoryError  as require_memory_before_mesh(): nothing is meshed, so that names and
 ///         places are not checked.
 /// @throws as solve_structure(), require_held() and require_curves(), where modes are known.
 CheckResult check_study(const SceneDescription& scene, const std::filesystem::path& picture,
-                        std::ostream& out);
+                        std::ostream& out, const RunOptions& options = {});
 
 }  // namespace microslip::pipelines

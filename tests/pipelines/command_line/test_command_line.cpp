@@ -255,6 +255,8 @@ TEST_F(Program, EndsStandardOutputWithOneJsonObject) {
   EXPECT_GT(checked["forecast"]["curves_seconds"], 0.0);
   ASSERT_TRUE(checked["effects"].is_array());
   EXPECT_TRUE(checked["effects"][0].contains("simulated"));
+  EXPECT_GT(checked["forecast"]["plots_seconds"], 0.0);
+  EXPECT_EQ(line("check scene.toml --without plots --json")["forecast"]["plots_seconds"], 0.0);
   const Json dry = line("run scene.toml --dry-run --json");
   EXPECT_EQ(dry["forecast"].size(), checked["forecast"].size());
   EXPECT_EQ(dry["forecast"]["memory_GB"], checked["forecast"]["memory_GB"]);
