@@ -269,6 +269,9 @@ void tell_bounds(const std::vector<ErrorRow>& rows, double tolerance,
     const bool harmonics = effect.name == "higher_harmonics";
     const std::string source = harmonics ? "harmonics" : effect.name;
     const Told told = told_of(rows, source, tolerance);
+    if (const ErrorRow* row = largest_row(rows, source, along_curve_goal)) {
+      effect.bound_along = row->effect;
+    }
     if (told.anything()) effect.bound = told.words.empty() ? told.bound : std::nullopt;
     for (const std::string& words : told.words) effect.reason += "; " + words;
     if (told.bound && *told.bound > tolerance) {

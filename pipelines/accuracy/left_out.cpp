@@ -14,7 +14,7 @@
 #include "contact/contact_force.hpp"
 #include "contact/dense.hpp"
 #include "contact/phase.hpp"
-#include "pipelines/accuracy/points_to_check.hpp"
+#include "pipelines/accuracy/with_effect.hpp"
 #include "pipelines/description/curve_request.hpp"
 #include "pipelines/response/highest_peak.hpp"
 #include "pipelines/response/response_stage.hpp"
@@ -23,9 +23,7 @@
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/interrupt.hpp"
 #include "pipelines/system/scene_error.hpp"
-#include "pipelines/text/effect_table.hpp"
 #include "solver/continuation.hpp"
-#include "solver/point_shift.hpp"
 #include "solver/richer_peak.hpp"
 
 namespace microslip::pipelines {
@@ -207,18 +205,6 @@ Changes without_peak(const Comparison& of, const Range& range) {
   return at_end(resonance_change(of.own, of.with, range), change);
 }
 
-/// The amplitude of another model at the frequency of a point. @return empty: none is near by.
-std::optional<solver::PeakOfBoth> at_its_frequency(const solver::Scene& own,
-                                                   solver::ContinuationOptions options,
-                                                   const solver::ResponsePoint& point,
-                                                   const solver::OtherModel& with) {
-  options.frequency_begin = options.frequency_end = point.frequency;
-  solver::ResponseCurve alone;
-  alone.points = {point};
-  alone.points.front().mark = solver::PointMark::none;  // of a peak the frequency would move
-  return solver::peak_elsewhere(own, options, alone, {with.scene, with.embedding, 1.0});
-}
-
 /// What having an effect makes of a lower peak that is not found with it.
 class LostPeaks {
  public:
@@ -320,11 +306,6 @@ Changes changes_of(const Comparison& of) {
   return {height, place};
 }
 
-/// The static preload with an effect may be another one.
-double load_with(const ReducedModel& richer, const ReducedModel& model, double load) {
-  return load == model.static_preload ? richer.static_preload.value_or(load) : load;
-}
-
 /// @param model  as the curve was solved.
 Changes changes_balanced(const SceneDescription& scene, const ReducedModel& model,
                          const RicherModel& other, const CurveResult& result, double load) {
@@ -419,133 +400,7 @@ Changes changes_with(const SceneDescription& scene, const ReducedModel& model,
   }
 }
 
-/// Of a source and a goal; none: not told.
-const ErrorRow* row_of(const std::vector<ErrorRow>& rows, const std::string& source,
-                       std::string_view goal) {
-  const auto row = std::ranges::find_if(
-      rows, [&](const ErrorRow& one) { return one.source == source && one.goal == goal; });
-  return row == rows.end() ? nullptr : &*row;
-}
-
-/// A change of amplitude beyond what the change of the peak makes: as much higher, and shifted.
-double beyond_peak(double change, const solver::ResponsePoint& point,
-                   const solver::ResponsePoint& peak, double height, double shift) {
-  const double explained = std::abs(height) * point.amplitude +
-                           std::abs(point.slope->amplitude * shift) * peak.frequency;
-  return std::copysign(std::max(0.0, std::abs(change) - explained), change) / peak.amplitude;
-}
-
-/// The model with an effect, at the frequencies of points without.
-class SolvedThere {
- public:
-  /// @param other  borrowed.
-  SolvedThere(const SceneDescription& scene, const ReducedModel& model, const RicherModel& other,
-              double load)
-      : own_(solver_scene(model, load)),
-        richer_(solver_scene(richer_of(model, other), load_with(other.model, model, load))),
-        embedding_(other.embedding),
-        options_(options_of_both(scene, model, richer_of(model, other))) {}
-
-  /// Change of the amplitude by having it, to first order [m]; infinite: not told.
-  [[nodiscard]] double estimate(const solver::ResponsePoint& point) const {
-    const auto shift = solver::amplitude_shift(richer_, options_, point);
-    return shift ? *shift * point.amplitude : not_there;
-  }
-  /// The same, solved for; none: no solution near by.
-  std::optional<double> change(const solver::ResponsePoint& point) {
-    const auto both = at_its_frequency(own_, options_, point, {richer_, embedding_});
-    if (!both) return std::nullopt;
-    return both->other_amplitude - both->amplitude;
-  }
-
- private:
-  static ReducedModel richer_of(const ReducedModel& model, const RicherModel& other) {
-    ReducedModel richer = other.model;
-    richer.effects.located = richer.effects.located || model.effects.located;
-    richer.effects.doublings = model.effects.doublings;  // a flank asks for less than a peak
-    return richer;
-  }
-
-  solver::Scene own_;
-  solver::Scene richer_;
-  const Eigen::MatrixXd& embedding_;
-  solver::ContinuationOptions options_;
-};
-
-/// What the highest peak of a curve does by having an effect, relative.
-struct PeakChange {
-  const solver::ResponsePoint& peak;
-  double height, shift;
-};
-
-/// The first of the places is solved for. Of the others one step in the model with the effect tells
-/// which changes most, and that is solved for, or the next where it has no solution near by: a
-/// step is short where the effect adds stiffness.
-std::vector<ErrorRow> solved_places(const CurveResult& result, const std::string& source,
-                                    const std::vector<std::size_t>& places, const PeakChange& peak,
-                                    SolvedThere& there) {
-  std::vector<ErrorRow> rows;
-  const auto beyond = [&](double change, const solver::ResponsePoint& point) {
-    return beyond_peak(change, point, peak.peak, peak.height, peak.shift);
-  };
-  const auto solve = [&](const solver::ResponsePoint& point) {
-    const auto change = there.change(point);
-    if (!change) return false;
-    rows.push_back({result.name, amplitude_there_goal, source, beyond(*change, point),
-                    ErrorKind::solved, 0.0, point.frequency / contact::two_pi});
-    return true;
-  };
-  struct Place {
-    double estimate;
-    const solver::ResponsePoint* point;
-  };
-  std::vector<Place> others;
-  for (const std::size_t place : places) {
-    if (cut_short()) return rows;
-    const solver::ResponsePoint& point = result.curve.points[place];
-    if (place == places.front()) {
-      solve(point);
-    } else {
-      const double estimate = std::abs(beyond(there.estimate(point), point));
-      others.push_back({std::isfinite(estimate) ? estimate : 0.0, &point});
-    }
-  }
-  std::ranges::stable_sort(others, std::ranges::greater{}, &Place::estimate);
-  for (const Place& place : others) {
-    if (cut_short() || solve(*place.point)) break;
-  }
-  return rows;
-}
-
 }  // namespace
-
-std::vector<ErrorRow> rows_there(const ReducedModel& simulated, const SceneDescription& scene,
-                                 const std::vector<RicherModel>& others, const CurveResult& result,
-                                 const std::vector<IndicatorOfCurve>& along,
-                                 const std::vector<ErrorRow>& known) {
-  const auto* load = std::get_if<double>(&result.load);
-  const solver::ResponsePoint* peak = highest_peak(result.curve);
-  if (load == nullptr || result.integrated || peak == nullptr) return {};
-  const ReducedModel model = model_of(simulated, result.curve);
-  std::vector<ErrorRow> rows;
-  for (const RicherModel& other : others) {
-    const auto indicator = std::ranges::find(along, other.source, &IndicatorOfCurve::effect);
-    const ErrorRow* height = row_of(known, other.source, peak_amplitude_goal);
-    const ErrorRow* shift = row_of(known, other.source, peak_frequency_goal);
-    if (shift == nullptr) shift = row_of(known, other.source, peak_outside_goal);
-    if (indicator == along.end() || shift == nullptr) continue;
-    const double higher = height != nullptr ? height->effect : 0.0;  // of one outside: not compared
-    const std::vector<std::size_t> places =
-        points_to_check(result.curve, indicator->at, effect_row(other.source).threshold);
-    if (places.empty() || !std::isfinite(higher)) continue;
-    SolvedThere there(scene, model, other, *load);
-    const PeakChange change{*peak, higher, shift->effect};
-    for (const ErrorRow& row : solved_places(result, other.source, places, change, there)) {
-      rows.push_back(row);
-    }
-  }
-  return rows;
-}
 
 std::vector<ErrorRow> rows_left_out(const ReducedModel& simulated, const SceneDescription& scene,
                                     const std::vector<RicherModel>& others,

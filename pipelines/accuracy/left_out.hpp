@@ -5,7 +5,6 @@
 
 #include <vector>
 
-#include "pipelines/accuracy/along_curve.hpp"
 #include "pipelines/accuracy/models_left_out.hpp"
 #include "pipelines/description/scene_description.hpp"
 #include "pipelines/model/reduced_model.hpp"
@@ -35,21 +34,5 @@ namespace microslip::pipelines {
                                                   const SceneDescription& scene,
                                                   const std::vector<RicherModel>& others,
                                                   const CurveResult& result);
-
-/// A few points beside the peaks (points_to_check.hpp) are looked at with the effect. Where its
-/// indicator is largest, and that of the others which by one step of Newton's method changes most,
-/// the curve is solved for again at their frequencies.
-/// @param others  models with one effect more each.
-/// @param along   their indicators, indicators_along().
-/// @param known   the rows of rows_left_out() and of the error budget.
-/// @return rows of the goal `amplitude_there`; none where the peaks are not known,
-///         or the other model has no solution near by: a flank or fold that moves is told by its
-///         peak.
-[[nodiscard]] std::vector<ErrorRow> rows_there(const ReducedModel& model,
-                                               const SceneDescription& scene,
-                                               const std::vector<RicherModel>& others,
-                                               const CurveResult& result,
-                                               const std::vector<IndicatorOfCurve>& along,
-                                               const std::vector<ErrorRow>& known);
 
 }  // namespace microslip::pipelines

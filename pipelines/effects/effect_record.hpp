@@ -29,6 +29,8 @@ struct EffectRecord {
       seconds{};  ///< that the curves take longer with it, forecast; none: not told apart
   std::optional<double>
       bound{};  ///< of what is left out: relative change of a highest peak by having it
+  std::optional<double>
+      bound_along{};  ///< of what is left out: change of any amplitude of a curve over its highest
   std::optional<double> bound_together{};  ///< of all that are left out, put back together
   /// Of what `auto` had left out and the run has put back: what leaving it out changes a highest
   /// peak by. Infinite: the peak with it was not found from that without. None:

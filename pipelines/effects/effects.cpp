@@ -235,6 +235,10 @@ std::vector<std::string> effect_lines(const std::vector<EffectRecord>& effects) 
     if (effect.bound && std::isfinite(*effect.bound)) {
       lines.back() += fmt::format("; having it would change the highest peaks by {} at most",
                                   percent_text(*effect.bound));
+      if (effect.bound_along.value_or(0.0) > *effect.bound) {
+        lines.back() += fmt::format(", the curves at a frequency by {} of them",
+                                    percent_text(*effect.bound_along));
+      }
     }
     if (!effect.objection.empty()) lines.back() += "; but " + effect.objection;
   }

@@ -370,7 +370,12 @@ std::string budget_text(const JsonEntry& run) {
 std::string bound_text(const JsonEntry& effect) {
   if (!effect.has("bound")) return "–";
   if (!effect.at("bound").is_number()) return "peak not found";
-  return percent_text(effect.number("bound"));
+  const std::string of_peaks = percent_text(effect.number("bound"));
+  const bool more =
+      effect.has("bound_along") && effect.number("bound_along") > effect.number("bound");
+  return more ? fmt::format("{}, {} along a curve", of_peaks,
+                            percent_text(effect.number("bound_along")))
+              : of_peaks;
 }
 
 /// Of an indicator, or its limit.
@@ -384,7 +389,8 @@ std::string number_text(const JsonEntry& effect, const char* key) {
 std::string simulated_text(const JsonEntry& run) {
   if (run.list("effects").empty()) return {};
   std::string text =
-      "\n## Effects\n\nBound: what having the effect changes the highest peaks by, at most.\n\n"
+      "\n## Effects\n\nBound: what having the effect changes the highest peaks by, at most; along "
+      "a curve an amplitude at its frequency, over the highest, the largest of a sample.\n\n"
       "| effect | simulated | setting | indicator | limit | bound | why |\n"
       "|---|---|---|---:|---:|---:|---|\n";
   for (const JsonEntry& effect : run.list("effects")) {

@@ -246,6 +246,7 @@ Json to_json(const EffectRecord& effect) {
           {"threshold", or_null(effect.threshold)},
           {"seconds", or_null(effect.seconds)},
           {"bound", finite_or_null(effect.bound)},
+          {"bound_along", or_null(effect.bound_along)},
           {"bound_together", finite_or_null(effect.bound_together)},
           {"switched_on", finite_or_null(effect.switched_on)},
           {"along_curves", effect.along ? to_json(*effect.along) : Json(nullptr)},

@@ -30,6 +30,9 @@ inline constexpr const char* one_frequency_goal = "one_frequency";
 /// At a point beside the peaks where such an indicator is above its threshold: of the amplitude
 /// there, over the highest of the curve, beyond what the change of the peak itself makes there.
 inline constexpr const char* amplitude_there_goal = "amplitude_there";
+/// Of an amplitude at its frequency, over the highest of the curve, with what the change of the
+/// peak makes there: the largest of a sample. No part of a bar.
+inline constexpr const char* along_curve_goal = "along_curve";
 inline constexpr const char* best_value_goal = "best_value";
 inline constexpr const char* best_amplitude_goal = "best_amplitude";
 inline constexpr const char* best_frequency_goal = "best_frequency";

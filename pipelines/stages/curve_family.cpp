@@ -18,6 +18,7 @@
 
 #include "contact/contact_force.hpp"
 #include "pipelines/accuracy/along_curve.hpp"
+#include "pipelines/accuracy/beside_peaks.hpp"
 #include "pipelines/accuracy/error_budget.hpp"
 #include "pipelines/accuracy/left_out.hpp"
 #include "pipelines/model/curve_load.hpp"

@@ -30,6 +30,17 @@ TEST(EffectBounds, TheLargestChangeOfAnyPeakIsTold) {
   EXPECT_FALSE(effects[2].bound.has_value());
 }
 
+// What a user sees who lays the curves over one another.
+TEST(EffectBounds, WhatThePeaksMakeOfTheCurveIsToldBesideThem) {
+  std::vector<EffectRecord> effects{left_out("second_direction")};
+  tell_bounds({{"a", peak_amplitude_goal, "second_direction", -4e-3, ErrorKind::solved, 0.1},
+               {"a", along_curve_goal, "second_direction", 0.055, ErrorKind::estimated, 0.1}},
+              tolerance, effects);
+  EXPECT_EQ(effects[0].bound, 4e-3);
+  EXPECT_EQ(effects[0].bound_along, 0.055);
+  EXPECT_EQ(effects[0].objection, "");  // a tolerance is one of peaks
+}
+
 // Energy is not stationary at a peak, and no tolerance is one of it.
 TEST(EffectBounds, TheDissipatedEnergyPutsNothingBack) {
   std::vector<EffectRecord> effects{left_out("second_direction")};

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "pipelines/accuracy/along_curve.hpp"
+#include "pipelines/accuracy/beside_peaks.hpp"
 #include "pipelines/description/curve_request.hpp"
 #include "pipelines/effects/model_family.hpp"
 #include "pipelines/response/curve_requirements.hpp"
@@ -405,8 +407,8 @@ TEST(LeftOut, WhatChangesTheCurveBesideThePeaksIsSeenWhereTheIndicatorIsNotLarge
   const auto known = rows_left_out(without.model, without.scene, others.models, curve);
   const auto along = indicators_along(without.model, without.scene, others.models, curve);
   const auto rows = rows_there(without.model, without.scene, others.models, curve, along, known);
-  ASSERT_EQ(rows.size(), 2U);
-  const double told = std::abs(rows.back().effect);
+  ASSERT_EQ(rows.size(), 3U);
+  const double told = std::abs(rows[1].effect);
   // What the curve with friction along r is off by, what its peak tells left out.
   double change = 0.0;
   const double top = amplitude(without);
@@ -422,6 +424,10 @@ TEST(LeftOut, WhatChangesTheCurveBesideThePeaksIsSeenWhereTheIndicatorIsNotLarge
   // At the largest indicator alone next to nothing is seen.
   EXPECT_EQ(rows.front().where_hz, largest_along(along.front(), curve).where_hz);
   EXPECT_LT(std::abs(rows.front().effect), 0.1 * change);
+  // With what the change of the peak makes of the curve all of it is told.
+  EXPECT_EQ(rows.back().goal, along_curve_goal);
+  EXPECT_GT(rows.back().effect, 0.9 * change);
+  EXPECT_LT(rows.back().effect, 2.0 * change);
 }
 
 }  // namespace

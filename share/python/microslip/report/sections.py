@@ -114,6 +114,12 @@ def told(value: Any, digits: int = 2) -> str:
     return "∞" if value == "infinite" else number(value, digits)
 
 
+def bound_text(bound: Any, along: Any) -> str:
+    """Of the peaks, and of any amplitude where that is more."""
+    more = is_number(bound) and is_number(along) and along > bound
+    return f"{percent(bound)}, {percent(along)} along a curve" if more else percent(bound)
+
+
 def effect_row(row: Mapping[str, Any]) -> list[str]:
     simulated = {True: "yes", False: "no"}.get(row.get("simulated"), "not decided")
     bound, why = row.get("bound"), escape(str(row.get("reason", "")))
@@ -123,7 +129,7 @@ def effect_row(row: Mapping[str, Any]) -> list[str]:
     seconds = row.get("seconds")
     return [escape(str(row.get("name", "")).replace("_", " ")), simulated, escape(str(row.get("setting", ""))), measured,
             told(row.get("threshold")), f"{number(seconds, 2)} s" if is_number(seconds) else "–",
-            "peak not found" if bound == "infinite" else percent(bound), why]
+            "peak not found" if bound == "infinite" else bound_text(bound, row.get("bound_along")), why]
 
 
 def effects(run: Run, data: Data) -> str:
@@ -132,7 +138,8 @@ def effects(run: Run, data: Data) -> str:
     return "" if not rows else (table(head, rows, (3, 4, 5, 6), "effects") +
                      "<p class=note>Above its limit an indicator, told from the linear limits before the run, calls for the "
                      "effect; point at it to read what it is. Cost: what curves, their errors, a best value and its bracket take "
-                     "longer, forecast; –: not told apart. Bound: what having the effect changes the highest peaks by, at most.</p>")
+                     "longer, forecast; –: not told apart. Bound: what having the effect changes the highest peaks by, at most; "
+                     "along a curve an amplitude at its frequency, over the highest, the largest of a sample.</p>")
 
 
 def state_of(curve: Mapping[str, Any]) -> str:
