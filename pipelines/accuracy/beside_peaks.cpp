@@ -131,7 +131,7 @@ bool can_be_checked(const solver::ResponsePoint& point) {
   return point.slope && point.mark == solver::PointMark::none;
 }
 
-constexpr std::size_t n_spread = 16;
+constexpr std::size_t n_spread = 8;
 
 /// So many, or all that a curve has.
 std::vector<std::size_t> spread_points(const std::vector<solver::ResponsePoint>& points) {
@@ -190,7 +190,7 @@ class LargestChange {
 /// and what lies beside the best of them.
 ErrorRow along_row(const CurveResult& result, const std::string& source,
                    std::vector<std::size_t> places, const PeakChange& peak, SolvedThere& there) {
-  constexpr int n_solved = 4;
+  constexpr int n_solved = 2;
   const std::vector<solver::ResponsePoint>& points = result.curve.points;
   std::ranges::copy(spread_points(points), std::back_inserter(places));
   const auto seems = [&](std::size_t i) {

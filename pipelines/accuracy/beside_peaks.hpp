@@ -23,8 +23,8 @@ namespace microslip::pipelines {
 /// @return rows of the goal `amplitude_there`, beyond what the change of the peak makes; none where
 ///         the peaks are not known, or the other model has no solution near by. Of each model whose
 ///         peaks are compared one of `along_curve` after them, with all that an amplitude changes
-///         by: of up to 22 points, those and others spread over the curve, the four that by one
-///         step change most are solved for, and points beside the best of them.
+///         by: of up to 14 points, those and others spread over the curve, the two that by one step
+///         change most are solved for, and points beside the best of them.
 [[nodiscard]] std::vector<ErrorRow> rows_there(const ReducedModel& model,
                                                const SceneDescription& scene,
                                                const std::vector<RicherModel>& others,
