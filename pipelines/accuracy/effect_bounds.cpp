@@ -63,6 +63,13 @@ const ErrorRow* largest_row(const std::vector<ErrorRow>& rows, std::string_view 
   return largest;
 }
 
+/// The same: on how many curves it is told.
+std::ptrdiff_t n_rows(const std::vector<ErrorRow>& rows, std::string_view source,
+                      std::string_view goal) {
+  return std::ranges::count_if(
+      rows, [&](const ErrorRow& row) { return row.source == source && row.goal == goal; });
+}
+
 /// What having a source changes: the peaks that can be compared, and in words the curves that have
 /// none.
 struct Told {
@@ -269,9 +276,10 @@ void tell_bounds(const std::vector<ErrorRow>& rows, double tolerance,
     const bool harmonics = effect.name == "higher_harmonics";
     const std::string source = harmonics ? "harmonics" : effect.name;
     const Told told = told_of(rows, source, tolerance);
-    if (const ErrorRow* row = largest_row(rows, source, along_curve_goal)) {
-      effect.bound_along = row->effect;
-    }
+    const ErrorRow* along = largest_row(rows, source, along_curve_goal);
+    const bool of_all_curves =
+        n_rows(rows, source, along_curve_goal) >= n_rows(rows, source, peak_amplitude_goal);
+    if (along != nullptr && of_all_curves) effect.bound_along = along->effect;
     if (told.anything()) effect.bound = told.words.empty() ? told.bound : std::nullopt;
     for (const std::string& words : told.words) effect.reason += "; " + words;
     if (told.bound && *told.bound > tolerance) {
