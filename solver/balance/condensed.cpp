@@ -192,6 +192,15 @@ BorderedFactors factors_alone(const BalanceJacobian& jacobian, Index size) {
 
 }  // namespace
 
+BranchVector newton_step(const BalanceEvaluation& at, const BranchVector& row,
+                         const Scaling& scaling) {
+  const Eigen::Index n = at.residual.size();
+  VectorXd right(n + 1);
+  right << -at.residual / scaling.residual, 0.0;
+  const VectorXd y = BorderedFactors(at, row, scaling).solve(right);
+  return {y.head(n) * scaling.x, y[n] * scaling.parameter};
+}
+
 VectorXd solved(const BalanceJacobian& jacobian, const VectorXd& b) {
   if (jacobian.parts() == nullptr) return contact::solved(jacobian.dense(), b);
   VectorXd right(b.size() + 1);

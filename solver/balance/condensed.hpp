@@ -51,6 +51,11 @@ class BorderedFactors {
   contact::LuFactors factors_;  // of all unknowns, or of the few
 };
 
+/// One step of Newton's method along the plane of `row`, a scaled direction: x and parameter change
+/// by it. NaN where a pivot vanishes.
+[[nodiscard]] BranchVector newton_step(const BalanceEvaluation& at, const BranchVector& row,
+                                       const Scaling& scaling);
+
 /// A⁻¹ b. NaN where a pivot vanishes.
 [[nodiscard]] Eigen::VectorXd solved(const BalanceJacobian& jacobian, const Eigen::VectorXd& b);
 /// −1, 1, or 0 where a pivot vanishes.

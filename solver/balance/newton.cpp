@@ -47,15 +47,6 @@ class Iteration {
     now_ = std::move(next);
   }
 
-  [[nodiscard]] BranchVector newton_step() const {
-    const Eigen::Index n = now_.point.x.size();
-    Eigen::VectorXd right(n + 1);
-    right.head(n) = -now_.evaluation.residual / scaling_.residual;
-    right[n] = 0.0;
-    const Eigen::VectorXd y = BorderedFactors(now_.evaluation, constraint_, scaling_).solve(right);
-    return {y.head(n) * scaling_.x, y[n] * scaling_.parameter};
-  }
-
   [[nodiscard]] NewtonResult stepped(const ParametricSystem& system, const BranchVector& step,
                                      double length) {
     ++now_.evaluations;
@@ -75,7 +66,7 @@ class Iteration {
   /// step is taken all the same, a few times, to leave the kink.
   bool step(int iteration) {
     if (!std::isfinite(now_.residual)) return false;
-    const BranchVector direction = newton_step();
+    const BranchVector direction = newton_step(now_.evaluation, constraint_, scaling_);
     if (!direction.x.allFinite() || !std::isfinite(direction.parameter)) return false;
     double length = 1.0;
     NewtonResult fallback;
@@ -101,7 +92,7 @@ class Iteration {
   /// not.
   void polish() {
     for (int i = 0; i < max_polish && now_.residual > polished_to; ++i) {
-      const BranchVector direction = newton_step();
+      const BranchVector direction = newton_step(now_.evaluation, constraint_, scaling_);
       if (!direction.x.allFinite() || !std::isfinite(direction.parameter)) return;
       const double before = now_.residual;
       for (const double length : {1.0, 0.5, 0.1}) {

@@ -1,5 +1,7 @@
 #include "solver/point_shift.hpp"
 
+#include <cmath>
+
 #include "solver/balance/condensed.hpp"
 #include "solver/balance/first_harmonics.hpp"
 #include "solver/balance/newton.hpp"
@@ -15,15 +17,11 @@ std::optional<PointShift> point_shift(const Scene& scene, const ResponsePoint& p
   const BalanceEvaluation at = balance.evaluate(x, point.frequency);
   const std::optional<BranchVector> along = null_vector(at, scaling, 1.0);
   if (!along || !(point.amplitude > 0.0)) return std::nullopt;
-  const Eigen::Index n = x.size();
-  Eigen::VectorXd right(n + 1);
-  right << -at.residual / scaling.residual, 0.0;
-  const Eigen::VectorXd step = BorderedFactors(at, *along, scaling).solve(right);
-  if (!step.allFinite()) return std::nullopt;
+  const BranchVector step = newton_step(at, *along, scaling);
+  if (!step.x.allFinite() || !std::isfinite(step.parameter)) return std::nullopt;
   const OutputAmplitude output = output_amplitude(balance.harmonics(x), scene.output);
   const Eigen::VectorXd gradient = balance.unknowns(output.gradient);
-  return PointShift{scaling.parameter * step[n] / point.frequency,
-                    scaling.x * gradient.dot(step.head(n)) / point.amplitude};
+  return PointShift{step.parameter / point.frequency, gradient.dot(step.x) / point.amplitude};
 }
 
 std::optional<double> amplitude_shift(const Scene& scene, const ContinuationOptions& range,

@@ -98,13 +98,10 @@ struct Carrier {
     constexpr double most_left = 0.2;
     LocalPeak at = start_from(peak);
     const BalanceEvaluation here = to.evaluate(at.point.x, at.point.parameter);
-    const Eigen::Index n = at.point.x.size();
-    Eigen::VectorXd right(n + 1);
-    right << -here.residual / at.scaling.residual, 0.0;
-    const Eigen::VectorXd step = BorderedFactors(here, border_of(at), at.scaling).solve(right);
-    if (!step.allFinite()) return std::nullopt;
-    at.point.x += at.scaling.x * step.head(n);
-    at.point.parameter += at.scaling.parameter * step[n];
+    const BranchVector step = newton_step(here, border_of(at), at.scaling);
+    if (!step.x.allFinite() || !std::isfinite(step.parameter)) return std::nullopt;
+    at.point.x += step.x;
+    at.point.parameter += step.parameter;
     const Eigen::VectorXd left = to.residual(at.point.x, at.point.parameter).residual;
     if (!(left.norm() <= most_left * here.residual.norm())) return std::nullopt;
     at.amplitude = output_amplitude(to.harmonics(at.point.x), to.scene().output).half_peak_to_peak;
