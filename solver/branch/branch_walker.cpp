@@ -41,10 +41,6 @@ constexpr double seen_swerve = 0.03;  // worth that look
 constexpr double most_off = 0.04;
 constexpr double most_off_by_turn = 0.15;
 constexpr int modest_attempts = 2;  // of a step, without Newton's method
-// Of a step that may be halved: one in a thousand of those that converge takes more than nine, and
-// those that do not would take forty.
-constexpr int most_evaluations = 12;
-constexpr int most_iterations = 10;  // of such a step
 constexpr int wanted_iterations = 4;
 constexpr int wanted_updates = 12;  // of Broyden's method, by forces alone
 // Of a step, which is at most a fifth of a resonance wide: below it are rounding errors only.
@@ -75,25 +71,24 @@ BranchWalker::BranchWalker(ParametricSystem system, ScalingRule rule, NewtonResu
   before_ = now_;
 }
 
-BranchWalker::Trial BranchWalker::attempt(double distance, int max_iterations) {
-  if (!residual_) return attempt(now_.tangent, distance, max_iterations);
+BranchWalker::Trial BranchWalker::attempt(double distance, Effort effort) {
+  if (!residual_) return attempt(now_.tangent, distance, effort);
   // A learned predictor is worth its steps where a Jacobian is not at hand at each iterate.
-  return corrected(predictor_.point(before_, now_, distance), now_.tangent, distance,
-                   max_iterations);
+  return corrected(predictor_.point(before_, now_, distance), now_.tangent, distance, effort);
 }
 
 BranchWalker::Trial BranchWalker::attempt(const BranchVector& direction, double distance,
-                                          int max_iterations) {
+                                          Effort effort) {
   return corrected(moved(now_.solution.point, direction, distance, now_.scaling), direction,
-                   distance, max_iterations);
+                   distance, effort);
 }
 
 BranchWalker::Trial BranchWalker::corrected(const BranchVector& predicted,
                                             const BranchVector& direction, double distance,
-                                            int max_iterations) {
+                                            Effort effort) {
   Trial trial;
-  NewtonOptions options{tolerance_, max_iterations};
-  if (!residual_ && max_iterations == most_iterations) options.max_evaluations = most_evaluations;
+  NewtonOptions options{tolerance_, effort.iterations};
+  if (!residual_) options.max_evaluations = effort.evaluations;
   NewtonResult solution = solved(predicted, direction, options, now_);
   evaluations_ += solution.evaluations;
   iterations_ += solution.iterations;
@@ -166,7 +161,7 @@ BranchWalker::Trial BranchWalker::behind(const Trial& trial) {
   BranchVector back = rescaled(trial.point.tangent, trial.point.scaling, now_.scaling);
   reverse(back);
   return corrected(moved(trial.point.solution.point, back, distance, now_.scaling), back, distance,
-                   10);
+                   usual);
 }
 
 /// Where slip begins or ends two parts of a branch may meet in a tip so sharp that a step goes from
@@ -217,7 +212,7 @@ BranchWalker::Trial BranchWalker::limited(Trial trial, double distance) {
   const long n_forced = states_.n_forced();
   double share = states_.first_cut(now_, trial.point, distance);
   for (int i = 0; i < most_cuts && share < 1.0; ++i) {
-    Trial shorter = attempt(share * distance, most_iterations);
+    Trial shorter = attempt(share * distance, usual);
     if (!shorter.converged || !smooth(shorter)) break;
     trial = std::move(shorter);
     distance *= share;
@@ -237,7 +232,7 @@ bool BranchWalker::advance() {
   bool failed = false;
   int modest = residual_ ? modest_attempts : 0;
   while (step_ >= shortest_step) {
-    Trial trial = attempt(step_, modest-- > 0 ? 0 : most_iterations);
+    Trial trial = attempt(step_, modest-- > 0 ? forces_alone : usual);
     // By factors of another place the determinant is not known to so short a step.
     const bool flips = trial.orientation * orientation_ < 0.0;
     const bool against = !residual_ && flips && trial.cosine > cosine_limit;
@@ -320,7 +315,7 @@ bool BranchWalker::leave_kink(double orientation) {
 bool BranchWalker::leave_kink(const BranchVector& way, double beyond, double orientation) {
   const double angle = 1.0 - std::abs(dot(way, now_.tangent));
   for (double distance = 30.0 * beyond; distance < 2e-2; distance *= 5.0) {
-    Trial trial = attempt(way, distance, 15);
+    Trial trial = attempt(way, distance, {15, any_number});
     const bool onward = trial.converged && trial.correction < 0.7 && trial.cosine > 0.5 &&
                         trial.orientation == orientation;
     if (!onward || (orientation != orientation_ && !is_other_part(trial, angle))) continue;
@@ -336,7 +331,7 @@ bool BranchWalker::leave_kink(const BranchVector& way, double beyond, double ori
 bool BranchWalker::leap() {
   // A kink the corrector cannot cross in small steps may be crossed in a long one.
   for (double distance = 1e-5; distance < longest_leap; distance *= 3.0) {
-    Trial trial = attempt(distance, 40);
+    Trial trial = attempt(distance, {40, any_number});
     if (!trial.converged || trial.correction > 1.0) continue;
     remember(Remedy::long_step);
     step_ = std::min(distance, 1e-2);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -94,12 +95,23 @@ class BranchWalker {
     bool bent = false;  ///< another branch crosses this one, at a kink of it
   };
 
+  /// Of Newton's method, at most.
+  struct Effort {
+    int iterations;
+    int evaluations;  ///< not of sampled forces
+  };
+  static constexpr int any_number = std::numeric_limits<int>::max();
+  static constexpr Effort forces_alone{0, any_number};
+  /// Of a step that may be halved: one in a thousand of those that converge takes more than nine
+  /// evaluations, and those that do not would take forty.
+  static constexpr Effort usual{10, 12};
+
   /// From now() along its tangent, or along another direction that leaves a kink.
-  [[nodiscard]] Trial attempt(double length, int max_iterations);
-  [[nodiscard]] Trial attempt(const BranchVector& direction, double length, int max_iterations);
+  [[nodiscard]] Trial attempt(double length, Effort effort);
+  [[nodiscard]] Trial attempt(const BranchVector& direction, double length, Effort effort);
   /// On the plane across `direction` through the predicted point, `length` away.
   [[nodiscard]] Trial corrected(const BranchVector& predicted, const BranchVector& direction,
-                                double length, int max_iterations);
+                                double length, Effort effort);
   [[nodiscard]] bool smooth(const Trial& trial) const;
   [[nodiscard]] double swerve(const Trial& trial) const;
   [[nodiscard]] bool is_elsewhere_halfway(const Trial& trial);
