@@ -41,6 +41,17 @@ TEST(EffectBounds, WhatThePeaksMakeOfTheCurveIsToldBesideThem) {
   EXPECT_EQ(effects[0].objection, "");  // a tolerance is one of peaks
 }
 
+// No sample was taken of the other curve: it may change more.
+TEST(EffectBounds, WhatOneCurveAloneTellsBesideItsPeaksIsNotToldOfAll) {
+  std::vector<EffectRecord> effects{left_out("second_direction")};
+  tell_bounds({{"a", peak_amplitude_goal, "second_direction", -4e-3, ErrorKind::solved, 0.1},
+               {"a", along_curve_goal, "second_direction", 0.055, ErrorKind::estimated, 0.1},
+               {"b", peak_amplitude_goal, "second_direction", 1e-3, ErrorKind::solved, 0.1}},
+              tolerance, effects);
+  EXPECT_EQ(effects[0].bound, 4e-3);
+  EXPECT_FALSE(effects[0].bound_along);
+}
+
 // Energy is not stationary at a peak, and no tolerance is one of it.
 TEST(EffectBounds, TheDissipatedEnergyPutsNothingBack) {
   std::vector<EffectRecord> effects{left_out("second_direction")};
