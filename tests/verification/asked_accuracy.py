@@ -291,7 +291,8 @@ class AskedAccuracy(unittest.TestCase):
                     break
             result = summary(folder)
             self.assertEqual((run.returncode, result["exit_code"]), (4, 4), (name, run.stderr))
-            self.assertIn("out of time", result["message"])
+            if "out of time" not in result["message"]:  # the share of one of two curves may be over before the whole
+                self.assertIn("its share of accuracy.budget", " ".join(curve["message"] for curve in result["curves"]), result)
             self.assertLess(seconds, allowed + 2.0, name)
             for curve in result["curves"]:  # what was not looked at is not called exact
                 self.assertTrue(curve["bar"] is None or curve["bar"]["peak_amplitude"] > 0, (name, curve["bar"]))
