@@ -82,6 +82,36 @@ void tell_shares(const std::vector<int>& solved, Progress& progress) {
   progress.info(fmt::format("curves solved on each MPI rank: {}", fmt::join(solved, ", ")));
 }
 
+/// Whether a curve is what it would be with more time.
+class TimeOfCurve {
+ public:
+  /// Begins with the curve. @param model, scene  borrowed.
+  TimeOfCurve(const ReducedModel& model, const SceneDescription& scene)
+      : model_(model),
+        scene_(scene),
+        limit_(scene.response->time_budget),
+        of_check_(share_of_check * scene.accuracy.budget) {}
+
+  /// Else it may be cut short, or have fewer harmonics than it was to have.
+  [[nodiscard]] bool was_enough(const CurveResult& curve) const {
+    const bool lacks_time = curve.lacks_time || curve.curve.diagnosis == solver::Diagnosis::budget;
+    return !interrupt_requested() && !time_is_short() && !lacks_time;
+  }
+  /// Else it may lack a check of its harmonics, or other solutions beside it, as well.
+  [[nodiscard]] bool changes_nothing(const CurveResult& curve) const {
+    const bool unchecked = of_check_.is_over() && !curve.richer &&
+                           curve.curve.certificate.empty() &&
+                           harmonics_to_check(model_, scene_) > 0;
+    return was_enough(curve) && !limit_.is_over() && !unchecked;
+  }
+
+ private:
+  const ReducedModel& model_;
+  const SceneDescription& scene_;
+  TimeLimit limit_;
+  TimeLimit of_check_;
+};
+
 }  // namespace
 
 std::vector<CurveResult> trace_family(const ReducedModel& model, const SceneDescription& scene,
@@ -109,22 +139,12 @@ std::vector<CurveResult> trace_family(const ReducedModel& model, const SceneDesc
     } else if (auto earlier = kept_results.curve(requests[i])) {
       results[i] = std::move(*earlier);
     } else {
-      const TimeLimit limit(scene.response->time_budget);
-      const TimeLimit of_check(share_of_check * scene.accuracy.budget);
+      const TimeOfCurve time(model, scene);
       // One share more, for what takes too long and for errors.
       share_time_among(1.0 + static_cast<double>(n_loaded(requests, order, place)) / jobs);
       results[i] = solve(requests[i], observe, nullptr);
-      const bool lacks_time =
-          results[i].lacks_time || results[i].curve.diagnosis == solver::Diagnosis::budget;
-      // Else it may be cut short, or have fewer harmonics than it was to have.
-      if (!interrupt_requested() && !time_is_short() && !lacks_time) {
-        record.keep_finished(results[i]);
-        // With more time it may have had its harmonics checked, or other solutions beside it.
-        const bool unchecked = of_check.is_over() && !results[i].richer &&
-                               results[i].curve.certificate.empty() &&
-                               harmonics_to_check(model, scene) > 0;
-        if (!limit.is_over() && !unchecked) kept_results.keep(results[i]);
-      }
+      if (time.was_enough(results[i])) record.keep_finished(results[i]);
+      if (time.changes_nothing(results[i])) kept_results.keep(results[i]);
     }
     ++done;
     const std::lock_guard lock(keeping);  // summary.json lists the curves in the scene's order
@@ -150,10 +170,11 @@ std::vector<CurveResult> trace_family(const ReducedModel& model, const SceneDesc
   return results;
 }
 
-std::vector<CurveResult> trace_unkept(const ReducedModel& model, const SceneDescription& scene,
-                                      const std::vector<CurveRequest>& requests,
-                                      const std::vector<const solver::ResponseCurve*>& near,
-                                      int jobs, Progress& progress) {
+std::vector<CurveResult> trace_again(const ReducedModel& model, const SceneDescription& scene,
+                                     const std::vector<CurveRequest>& requests,
+                                     const std::vector<const solver::ResponseCurve*>& near,
+                                     int jobs, Progress& progress) {
+  const KeptResults kept(model, scene);
   std::vector<CurveResult> results(requests.size());
   std::atomic<std::size_t> done{0};
   const auto trace = [&](std::size_t i, const CurveSolver& solve) {
@@ -162,7 +183,14 @@ std::vector<CurveResult> trace_unkept(const ReducedModel& model, const SceneDesc
       progress.point(requests[i].name, point, fraction_of(scene, point, done, requests.size()));
       return goes_on();
     };
-    results[i] = solve(requests[i], observe, near.empty() ? nullptr : near[i]);
+    const solver::ResponseCurve* begin = near.empty() ? nullptr : near[i];
+    if (auto earlier = kept.curve(requests[i], begin)) {
+      results[i] = std::move(*earlier);
+    } else {
+      const TimeOfCurve time(model, scene);
+      results[i] = solve(requests[i], observe, begin);
+      if (time.changes_nothing(results[i])) kept.keep(results[i], begin);
+    }
     ++done;
   };
   tell_shares(share_curves(model, scene, requests.size(), jobs, trace), progress);

@@ -18,11 +18,11 @@ namespace microslip::pipelines {
                                                     const SceneDescription& scene, int jobs,
                                                     RunRecord& record);
 
-/// Some of them, of which nothing is kept but the progress.
+/// Some of them, of which the run's record is told nothing but the progress.
 /// @param near  curves of a poorer model with the same modes, one per request,
 ///              near which they begin; or none.
 /// @return one per request, cut short where the time is.
-[[nodiscard]] std::vector<CurveResult> trace_unkept(
+[[nodiscard]] std::vector<CurveResult> trace_again(
     const ReducedModel& model, const SceneDescription& scene,
     const std::vector<CurveRequest>& requests,
     const std::vector<const solver::ResponseCurve*>& near, int jobs, Progress& progress);

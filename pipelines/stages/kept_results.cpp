@@ -154,6 +154,14 @@ std::string maps_name(const CurveResult& curve) { return "maps_" + curve.name; }
 
 std::string errors_name(const CurveResult& curve) { return "errors_" + curve.name; }
 
+/// Another beginning may end in other points, within what they are solved to.
+std::string with_begin(const std::string& inputs, const solver::ResponseCurve* near) {
+  if (near == nullptr || near->points.empty()) return inputs;
+  ByteWriter bytes;
+  bytes(near->points.front().q);
+  return inputs + bytes.bytes();
+}
+
 /// Errors are those of these points, whatever they took.
 std::string with_points(const std::string& inputs, const CurveResult& curve) {
   ByteWriter bytes;
@@ -187,14 +195,16 @@ bool KeptResults::is_worth(long evaluations) const {
   return static_cast<double>(evaluations) * n_points_ >= worth_keeping;
 }
 
-std::optional<CurveResult> KeptResults::curve(const CurveRequest& request) const {
-  return found<CurveResult>(request.name, with_load(curves_, load_of(request, model_)));
+std::optional<CurveResult> KeptResults::curve(const CurveRequest& request,
+                                              const solver::ResponseCurve* near) const {
+  return found<CurveResult>(request.name,
+                            with_begin(with_load(curves_, load_of(request, model_)), near));
 }
 
-void KeptResults::keep(const CurveResult& curve) const {
+void KeptResults::keep(const CurveResult& curve, const solver::ResponseCurve* near) const {
   const bool ended = curve.curve.diagnosis != solver::Diagnosis::budget;  // of time, or of points
   if (!ended || !is_worth(curve.curve.contact_evaluations)) return;
-  keep_part(curve.name, with_load(curves_, curve.load), curve);
+  keep_part(curve.name, with_begin(with_load(curves_, curve.load), near), curve);
 }
 
 std::optional<CurveBudget> KeptResults::budget(const CurveResult& curve) const {

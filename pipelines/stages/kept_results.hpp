@@ -30,9 +30,11 @@ class KeptResults {
   /// @param scene  its settings are those of the model, whatever its text says.
   KeptResults(const ReducedModel& model, const SceneDescription& scene);
 
-  [[nodiscard]] std::optional<CurveResult> curve(const CurveRequest& request) const;
-  /// @param curve  of this model, begun where nothing was known of it.
-  void keep(const CurveResult& curve) const;
+  /// @param near  where it begins (response_stage.hpp); nullptr: nothing is known of it.
+  [[nodiscard]] std::optional<CurveResult> curve(const CurveRequest& request,
+                                                 const solver::ResponseCurve* near = nullptr) const;
+  /// @param curve  of this model, begun there.
+  void keep(const CurveResult& curve, const solver::ResponseCurve* near = nullptr) const;
 
   /// What is known of the errors of this curve alone.
   [[nodiscard]] std::optional<CurveBudget> budget(const CurveResult& curve) const;

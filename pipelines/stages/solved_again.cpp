@@ -93,7 +93,7 @@ bool solve(const Solution& before, const Refinement& step, int jobs, Progress& p
   }
   progress.expect(step.curve_seconds / jobs);
   std::vector<CurveResult> curves =
-      trace_unkept(now.model, now.scene, requests, near, jobs, progress);
+      trace_again(now.model, now.scene, requests, near, jobs, progress);
   if (cut_short() && !step.only_harmonics) return false;
   now.curves = before.curves;
   now.budgets = before.budgets;

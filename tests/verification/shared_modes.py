@@ -129,6 +129,21 @@ class SharedModes(unittest.TestCase):
             self.assertEqual(taken("other", [150], **{key: value, "response.optimum": None, "response.optimum_range": None,
                                                       "accuracy.error_budget": "off"}), set(), key)
 
+    def test_curves_of_a_refined_model_are_taken_as_well(self):
+        study = {"response.harmonics": 1, "response.frequency": ["310 Hz", "335 Hz"], "response.preload": [150, 300],
+                 "accuracy.error_budget": "auto", "accuracy.tolerance": 0.2, "accuracy.extrapolation": "off", "contact.points": 24}
+
+        def log_of(name, *options):
+            return run(name, *options, cache="refined_cache", **study)
+
+        first, again, refused = log_of("refined"), log_of("refined_again"), log_of("refined_refused", "--no-cache")
+        for log in (first, again, refused):
+            self.assertIn("now with harmonics", log)
+        self.assertNotIn("preload_150: taken", first)
+        self.assertEqual(again.count(" preload_150: taken from an earlier run"), 2, "before and after it was refined")
+        for name in ("curves/preload_150.csv", "curves/preload_150.states.csv", "curves/preload_300.csv"):
+            self.assertEqual(read("refined_again", name), read("refined_refused", name), name)
+
     def test_pictures_of_curves_that_did_not_change_are_not_drawn_again(self):
         study = {"response.maps": ["peak"], "response.harmonics": 3, "contact.points": 96, "response.frequency": ["310 Hz", "335 Hz"]}
 
