@@ -33,6 +33,9 @@ struct ContinuationOptions {
   /// harmonics, much more in scenes of few modes. Where curves are traced for their peaks alone,
   /// nobody asks.
   bool judge_stability = true;
+  /// Whether a step to a part of the branch beside the one walked is refused (branch_walker.hpp).
+  /// False: to step over what has led the walk back.
+  bool refuse_swerves = true;
   /// Solutions whose proof fails are no rows (curve/certificate.hpp). False: of curves that only a
   /// search reads.
   bool require_proof = true;

@@ -132,7 +132,7 @@ double BranchWalker::swerve(const Trial& trial) const {
   const WalkerPoint& to = trial.point;
   const BranchVector chord = difference(to.solution.point, now_.solution.point, to.scaling);
   const double size = length(chord);
-  if (size < seen_step) return 0.0;
+  if (size < seen_step || takes_swerves_) return 0.0;
   const BranchVector from = rescaled(now_.tangent, now_.scaling, to.scaling);
   const double along = dot(chord, from) + dot(chord, to.tangent);
   return angle_of(along / (size * std::sqrt(2.0 + 2.0 * trial.cosine)));

@@ -53,6 +53,9 @@ class BranchWalker {
   /// @param residual  of the same system, may leave the derivatives empty.
   void economise(ParametricSystem residual) { residual_ = std::move(residual); }
 
+  /// Steps that swerve are taken: they may go over folds.
+  void take_swerves() { takes_swerves_ = true; }
+
   /// One accepted step. False: no remedy helped; now() is the last good point.
   [[nodiscard]] bool advance();
 
@@ -137,6 +140,7 @@ class BranchWalker {
 
   ParametricSystem system_;
   ParametricSystem residual_;  ///< empty: Newton's method all the way
+  bool takes_swerves_ = false;
   BranchPredictor predictor_;
   ScalingRule rule_;
   double tolerance_;

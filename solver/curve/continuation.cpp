@@ -69,6 +69,23 @@ ResponseCurve trace_backwards(const Scene& scene, ContinuationOptions options,
   return curve;
 }
 
+/// A step that is refused as it swerves may lead into a tip, far smaller than itself, from which a
+/// walk comes back: then such steps are taken.
+ResponseCurve traced_past_loops(const Scene& scene, ContinuationOptions options,
+                                const PointObserver& observe) {
+  ResponseCurve curve = CurveTracer(scene, options, observe).run();
+  if (curve.diagnosis != Diagnosis::loop) return curve;
+  options.refuse_swerves = false;
+  ResponseCurve past = CurveTracer(scene, std::move(options), observe).run();
+  ResponseCurve& kept = past.complete ? past : curve;
+  const ResponseCurve& other = past.complete ? curve : past;
+  kept.iterations += other.iterations;
+  kept.contact_evaluations += other.contact_evaluations;
+  kept.state_readings += other.state_readings;
+  kept.state_cuts += other.state_cuts;
+  return std::move(kept);
+}
+
 Eigen::MatrixXd limit_stiffness(const Scene& scene, LinearLimit limit) {
   const Eigen::Index n = scene.n_modes();
   if (limit == LinearLimit::free) return Eigen::MatrixXd::Zero(n, n);
@@ -172,7 +189,7 @@ ResponseCurve trace_response(const Scene& scene, const ContinuationOptions& opti
   if (!certified && options.harmonic_tolerance > 0.0)
     return trace_choosing(scene, options, observe);
   ResponseCurve curve =
-      certified ? std::move(*certified) : CurveTracer(scene, options, observe).run();
+      certified ? std::move(*certified) : traced_past_loops(scene, options, observe);
   if (!curve.complete && curve.certificate.empty() && curve.diagnosis != Diagnosis::interrupted) {
     ResponseCurve other = trace_backwards(scene, options, observe);
     const long iterations = curve.iterations + other.iterations;

@@ -233,6 +233,7 @@ BranchWalker CurveTracer::walker_from(NewtonResult start, double way) {
       return balance_->residual(x, frequency);
     });
   }
+  if (!options_.refuse_swerves) walker.take_swerves();
   if (scene_.contact) {
     walker.watch([this](const BranchVector& at, contact::ContactStates& states) {
       balance_->states(at.x, at.parameter, states);
