@@ -16,6 +16,9 @@ namespace microslip::fem {
 /// Whether mpirun (or a batch system by PMI) has started several processes: known by the
 /// environment, before a session.
 [[nodiscard]] bool started_in_parallel();
+/// The same of one process as well: those that it starts itself cannot open a session of their own,
+/// for they would take its place among the ranks.
+[[nodiscard]] bool started_as_rank();
 
 [[nodiscard]] int rank();          ///< 0 without a session
 [[nodiscard]] int n_ranks();       ///< 1 without a session

@@ -17,11 +17,11 @@
 #include "fem/elements/number_text.hpp"
 #include "fem/elements/polynomial_tractions.hpp"
 #include "fem/elements/symmetric_pairs.hpp"
-#include "fem/petsc/blas_library.hpp"
 #include "fem/petsc/columns.hpp"
 #include "fem/petsc/conjugate_gradients.hpp"
 #include "fem/petsc/factorisation.hpp"
 #include "fem/petsc_error.hpp"
+#include "fem/slepc_session.hpp"
 #include "fem/surface_load.hpp"
 
 namespace microslip::fem {

@@ -15,16 +15,4 @@ void set_blas_threads(int n_ranks_here);
 /// better before the address space is used up than within a factorisation.
 void reserve_blas_memory();
 
-/// While it stands OpenBLAS has one thread: where matrices are small, others only wait.
-class OneBlasThread {
- public:
-  OneBlasThread();
-  ~OneBlasThread();
-  OneBlasThread(const OneBlasThread&) = delete;
-  OneBlasThread& operator=(const OneBlasThread&) = delete;
-
- private:
-  int n_threads_ = 0;  ///< before; 0: another BLAS
-};
-
 }  // namespace microslip::fem

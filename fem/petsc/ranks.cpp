@@ -23,6 +23,9 @@ using Clock = std::chrono::steady_clock;
 
 int ranks_here = 1;
 
+/// Variables of the environment that tell how many processes have been started together.
+constexpr std::array size_names{"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"};
+
 constexpr std::int64_t dismissed = -1;
 constexpr auto patience = 15s;
 
@@ -68,11 +71,15 @@ void announce(Head head) {
 }  // namespace
 
 bool started_in_parallel() {
-  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) {
+  return std::ranges::any_of(size_names, [](const char* name) {
     const char* value = std::getenv(name);
-    if (value != nullptr && std::atoi(value) > 1) return true;
-  }
-  return false;
+    return value != nullptr && std::atoi(value) > 1;
+  });
+}
+
+bool started_as_rank() {
+  return std::ranges::any_of(size_names,
+                             [](const char* name) { return std::getenv(name) != nullptr; });
 }
 
 int rank() {
