@@ -2,6 +2,8 @@
 /// Ctrl-C and SIGTERM as a flag the stages look at.
 #pragma once
 
+#include <stop_token>
+
 namespace microslip::pipelines {
 
 /// While it lives the signals set the flag; a second one ends the process at once. Afterwards they
@@ -27,6 +29,18 @@ class PromptEnd {
   PromptEnd& operator=(const PromptEnd&) = delete;
   PromptEnd(PromptEnd&&) = delete;
   PromptEnd& operator=(PromptEnd&&) = delete;
+};
+
+/// While it lives a stop that is asked for is an interrupt to the thread that made it, and to no
+/// other: all that looks for interrupts, or waits, ends there.
+class StopOfThread {
+ public:
+  explicit StopOfThread(std::stop_token stop);
+  ~StopOfThread();
+  StopOfThread(const StopOfThread&) = delete;
+  StopOfThread& operator=(const StopOfThread&) = delete;
+  StopOfThread(StopOfThread&&) = delete;
+  StopOfThread& operator=(StopOfThread&&) = delete;
 };
 
 [[nodiscard]] bool interrupt_requested();
