@@ -34,6 +34,7 @@
 #include "pipelines/stages/shared_curves.hpp"
 #include "pipelines/structure/campbell.hpp"
 #include "pipelines/structure/on_all_ranks.hpp"
+#include "pipelines/structure/solver_process.hpp"
 #include "pipelines/structure/structure_task.hpp"
 #include "pipelines/system/exit_code.hpp"
 #include "pipelines/system/interrupt.hpp"
@@ -446,6 +447,20 @@ int serve_rank_zero() {
       Part{curves_work, take_part_in_curves},
   };
   return serve_rank_zero(parts);
+}
+
+bool is_solver(std::span<char* const> words) {
+  return words.size() > 1 && words[1] == std::string_view(solver_word);
+}
+
+int serve_as_solver(std::span<char* const> words) {
+  const auto failure = failure_of([&] {
+    if (words.size() != 4) throw SceneError("expected the files of a task and of its modes");
+    solve_task_file(words[2], words[3]);
+  });
+  if (!failure) return static_cast<int>(ExitCode::complete);
+  std::cerr << "microslip: " << failure->message << '\n';
+  return failure->code;
 }
 
 }  // namespace microslip::pipelines

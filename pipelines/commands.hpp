@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
@@ -65,5 +66,11 @@ int cycle(const Arguments& arguments);
 /// What a rank above 0 of an MPI start does while rank 0 answers a command.
 /// @return the exit code of rank 0.
 int serve_rank_zero();
+
+/// Whether another of its kind has started the program to solve beside it: no command of its own.
+/// @param words  of the command line.
+[[nodiscard]] bool is_solver(std::span<char* const> words);
+/// @return exit code; what is wrong is told on standard error.
+int serve_as_solver(std::span<char* const> words);
 
 }  // namespace microslip::pipelines

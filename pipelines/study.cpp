@@ -27,7 +27,7 @@ int run_study(const SceneDescription& asked, const RunOptions& options) {
   RunRecord record(asked, options);
   const ResultCache cache(options.cache, [&](const auto& line) { record.progress().info(line); });
   return record.run([&] {
-    Solution solution{.scene = scene, .structure = solved_structure(scene, record)};
+    Solution solution{.scene = scene, .structure = solved_structure(scene, options.jobs, record)};
     solution.model = reduced_model(scene, solution.structure, record);
     require_held(solution.model, scene);
     require_curves(solution.model, scene);
@@ -65,8 +65,9 @@ int run_study(const SceneDescription& asked, const RunOptions& options) {
 int modes_study(const SceneDescription& scene, const RunOptions& options) {
   RunRecord record(scene, options);
   const ResultCache cache(options.cache, [&](const auto& line) { record.progress().info(line); });
-  return record.run(
-      [&] { static_cast<void>(reduced_model(scene, solved_structure(scene, record), record)); });
+  return record.run([&] {
+    static_cast<void>(reduced_model(scene, solved_structure(scene, options.jobs, record), record));
+  });
 }
 
 }  // namespace microslip::pipelines

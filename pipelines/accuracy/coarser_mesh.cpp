@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "pipelines/structure/extrapolated_modes.hpp"
+#include "pipelines/structure/larger_elements.hpp"
 #include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {

@@ -6,6 +6,7 @@
 #include <csignal>
 #include <exception>
 #include <iostream>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -126,6 +127,9 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ,
               SIG_IGN);  // a file that may not grow is an error of the writer, told as such
   prepare_for_little_memory();
+  if (const std::span words(argv, static_cast<std::size_t>(argc)); is_solver(words)) {
+    return serve_as_solver(words);
+  }
   if (!fem::started_in_parallel()) return answer_whatever_comes(argc, argv);
   try {
     return answer_on_ranks(argc, argv);

@@ -14,6 +14,7 @@
 #include "pipelines/questions/questions.hpp"
 #include "pipelines/stages/stage_seconds.hpp"
 #include "pipelines/structure/extrapolated_modes.hpp"
+#include "pipelines/structure/larger_elements.hpp"
 #include "pipelines/structure/memory_before_mesh.hpp"
 #include "pipelines/structure/mesh_excess.hpp"
 #include "pipelines/structure/solver_time.hpp"
@@ -53,7 +54,7 @@ MeshExcess telling_mesh_excess(const mesh::Mesh& mesh, const StructureModes& mod
 
 }  // namespace
 
-StructurePointer solved_structure(const SceneDescription& scene, RunRecord& record) {
+StructurePointer solved_structure(const SceneDescription& scene, int cores, RunRecord& record) {
   ask(record.progress(), scene);
   tell_ranks(record.progress());
   if (std::holds_alternative<ModalModel>(scene.model)) return nullptr;
@@ -76,6 +77,7 @@ StructurePointer solved_structure(const SceneDescription& scene, RunRecord& reco
     record.progress().expect(modes_seconds(n_dofs, scene.settings.basis) + larger);
   }
   std::optional<StructureModes> modes = record.finished_modes();
+  LargerElements larger(scene, mesh, modes ? 1 : cores);  // beside what is to be solved
   if (!modes) modes = solve_structure(mesh, scene);
   for (const std::string& warning : modes->warnings) record.progress().warning(warning);
   if (!scene.modes.residual_note.empty()) record.progress().info(scene.modes.residual_note);
@@ -85,7 +87,7 @@ StructurePointer solved_structure(const SceneDescription& scene, RunRecord& reco
   if (!excess.text.empty()) record.progress().info(excess.text);
   if (!excess.warning.empty()) record.progress().warning(excess.warning);
   SolvedStructure structure{std::move(mesh), std::move(*modes)};
-  if (const std::string text = extrapolate_modes(structure, scene); !text.empty()) {
+  if (const std::string text = extrapolate_modes(structure, scene, larger); !text.empty()) {
     record.progress().info(text);
   }
   record.stage("contact");

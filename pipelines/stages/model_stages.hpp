@@ -9,7 +9,9 @@ namespace microslip::pipelines {
 
 /// mesh → modes; what an earlier run has finished is taken from there. nullptr:
 /// a kind that gives its modes itself.
-[[nodiscard]] StructurePointer solved_structure(const SceneDescription& scene, RunRecord& record);
+/// @param cores  above 1: what the modes are extrapolated from may be solved beside them.
+[[nodiscard]] StructurePointer solved_structure(const SceneDescription& scene, int cores,
+                                                RunRecord& record);
 
 /// → contact: the arrays the response stage needs.
 [[nodiscard]] ReducedModel reduced_model(const SceneDescription& scene,

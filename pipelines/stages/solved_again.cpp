@@ -22,11 +22,15 @@ namespace microslip::pipelines {
 namespace {
 
 StructurePointer structure_of(const Solution& before, const Refinement& step,
-                              const SolvedAgain& round, Progress& progress) {
+                              const SolvedAgain& round, int jobs, Progress& progress) {
   if (!before.structure || !step.new_mesh) return before.structure;
   const Progress::Part part = progress.part("finer mesh and its modes");
-  progress.expect(step.structure_seconds);  // two cores save little of it
-  return std::make_shared<const SolvedStructure>(solved_structure(step.scene, round.mesh_file()));
+  // Two cores save little of a mesh; what its modes are extrapolated from is solved beside them.
+  constexpr double without_larger = 0.7;
+  const bool beside = jobs > 1 && is_extrapolated(step.scene) && std::isinf(seconds_left());
+  progress.expect((beside ? without_larger : 1.0) * step.structure_seconds);
+  return std::make_shared<const SolvedStructure>(
+      solved_structure(step.scene, round.mesh_file(), jobs));
 }
 
 /// Those that are exact enough stay, where the others get other harmonics alone.
@@ -79,7 +83,7 @@ bool solve(const Solution& before, const Refinement& step, int jobs, Progress& p
   Solution& now = round.solution;
   now.scene = step.scene;
   now.switched_on = before.switched_on;
-  now.structure = structure_of(before, step, round, progress);
+  now.structure = structure_of(before, step, round, jobs, progress);
   if (cut_short()) return false;
   now.model = model_of(now.scene, now.structure.get(), round.warnings);
   const std::vector<std::size_t> again = curves_to_solve(before, step);

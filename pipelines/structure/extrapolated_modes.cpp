@@ -14,10 +14,10 @@
 #include <fmt/format.h>
 
 #include "mesh/interpolation.hpp"
+#include "pipelines/structure/larger_elements.hpp"
 #include "pipelines/structure/solver_time.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/scene_error.hpp"
-#include "pipelines/system/temporary_folder.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -216,32 +216,23 @@ bool is_extrapolated(const SceneDescription& scene) {
   return scene.accuracy.tolerance > 0.0 && scene.accuracy.extrapolation && element_size_of(scene);
 }
 
-SolvedStructure on_larger_elements(const SceneDescription& scene, double factor,
-                                   Eigen::Index n_modes) {
-  const TemporaryFolder folder;
-  SceneDescription coarser = with_elements_scaled(scene, factor);
-  coarser.accuracy.extrapolation = false;
-  coarser.settings.basis.n_modes = static_cast<int>(n_modes);
-  coarser.settings.basis.reach = 0.0;
-  return solved_structure(coarser, folder.path() / "mesh.msh");
-}
-
 double observed_ratio(double fine, double coarse, double coarsest) {
   const double ratio = (coarsest - coarse) / (coarse - fine);
   const bool is_smooth = ratio > without_edges && ratio <= highest_ratio;
   return is_smooth ? ratio : ratio_of_edges;
 }
 
-std::string extrapolate_modes(SolvedStructure& structure, const SceneDescription& scene) {
+std::string extrapolate_modes(SolvedStructure& structure, const SceneDescription& scene,
+                              LargerElements& larger) {
   const fem::ModalBasis& basis = structure.modes.basis;
   if (!is_extrapolated(scene)) return {};
   if (cut_short()) return "modes are not extrapolated: out of time";
   if (basis.n_rigid_body > 0) return "modes are not extrapolated: the body is not held";
   if (std::string text = too_long(structure.mesh, scene); !text.empty()) return text;
   try {
-    const auto coarser = std::make_shared<CoarserMeshes>(
-        CoarserMeshes{.twice = on_larger_elements(scene, 2.0, basis.n_free())});
-    const SolvedStructure four_times = on_larger_elements(scene, 4.0, basis.n_free());
+    const auto coarser =
+        std::make_shared<CoarserMeshes>(CoarserMeshes{.twice = larger.twice(basis.n_free())});
+    const SolvedStructure four_times = larger.four_times(basis.n_free());
     const ThreeFrequencies first{basis.frequency[0], coarser->twice.modes.basis.frequency[0],
                                  four_times.modes.basis.frequency[0]};
     const std::string text = text_of(*element_size_of(scene), first);

@@ -23,6 +23,8 @@
 
 namespace microslip::pipelines {
 
+class LargerElements;
+
 /// 2^p of every mode and attachment shape; empty: it stays.
 struct ExtrapolationRatios {
   std::vector<std::optional<double>> free{};
@@ -39,10 +41,6 @@ struct CoarserMeshes {
 /// `accuracy.extrapolation` is off.
 [[nodiscard]] bool is_extrapolated(const SceneDescription& scene);
 
-/// @param n_modes  however far they reach.
-[[nodiscard]] SolvedStructure on_larger_elements(const SceneDescription& scene, double factor,
-                                                 Eigen::Index n_modes);
-
 /// 2^p = (ω_4h − ω_2h) / (ω_2h − ω_h) of three meshes, between 2^2.5 and 16 (smooth fields,
 /// quadratic elements). Else it is that of re-entrant edges, h^1.09: meshes show the rate of the
 /// coarsest then, or an accident, which is not that of what is left on the finest.
@@ -53,9 +51,11 @@ struct CoarserMeshes {
 /// more than half of the time that is left, or their first frequencies do not fall towards that of
 /// the fine one.
 /// @param structure  mesh and modes of the scene.
+/// @param larger     of it, which may be being solved.
 /// @return what was done, or why it was not, for the log; empty: the scene does not ask for it.
 /// @throws InterruptedError
-std::string extrapolate_modes(SolvedStructure& structure, const SceneDescription& scene);
+std::string extrapolate_modes(SolvedStructure& structure, const SceneDescription& scene,
+                              LargerElements& larger);
 
 /// Mesh and modes of a scene that differs from another in a number that is searched. What is
 /// extrapolated, and by how much, is that of the other: decided anew at each value it would make

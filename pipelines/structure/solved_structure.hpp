@@ -21,11 +21,14 @@ struct SolvedStructure {
 };
 
 /// Mesh and modes from the beginning. @param mesh_file  where the mesher writes.
+/// @param cores  above 1: what the modes are extrapolated from may be solved beside them.
 /// @throws as obtain_mesh(), check_names(), solve_structure().
 [[nodiscard]] SolvedStructure solved_structure(const SceneDescription& scene,
-                                               const std::filesystem::path& mesh_file);
+                                               const std::filesystem::path& mesh_file,
+                                               int cores = 1);
 
 /// The same on a mesh that is there.
-[[nodiscard]] SolvedStructure solved_on(mesh::Mesh mesh, const SceneDescription& scene);
+[[nodiscard]] SolvedStructure solved_on(mesh::Mesh mesh, const SceneDescription& scene,
+                                        int cores = 1);
 
 }  // namespace microslip::pipelines

@@ -146,17 +146,6 @@ void require_count(const StructureTask& task, const SceneDescription& scene) {
                   place_in(scene, "modes.count"), task.basis.n_modes, most));
 }
 
-/// The same solution bit for bit needs the same arithmetic: BLAS and its threads, ranks, libraries.
-std::string arithmetic() {
-  const Machine machine = describe_machine();
-  std::string text =
-      fmt::format("{}, {} threads, {} ranks", machine.blas, machine.blas_threads, fem::n_ranks());
-  for (const auto& [name, version] : fem::library_versions()) {
-    text += fmt::format(", {} {}", name, version);
-  }
-  return text;
-}
-
 /// Instead of the direct one it was to be solved by.
 bool has_iterative_way(const StructureTask& task) {
   return task.basis.solver == fem::SolverKind::direct && !task.rotation;
@@ -188,16 +177,21 @@ StructureModes modes_in(const std::string& kept) {
   return modes;
 }
 
-StructureModes solved(const StructureTask& task, const SceneDescription& scene) {
+StructureModes solved(const StructureTask& task, const SolvedElsewhere& by) {
   ResultCache* cache = ResultCache::in_use();
-  if (cache == nullptr) return solve_on_all_ranks(task, scene);
-  const ResultCache::Entry entry = cache->entry("modes", bytes_of(task) + arithmetic());
+  if (cache == nullptr) return by.solve(task);
+  const ResultCache::Entry entry = cache->entry("modes", bytes_of(task) + by.arithmetic);
   if (const auto made = entry.find()) return modes_in(*made);
-  StructureModes modes = solve_on_all_ranks(task, scene);
+  StructureModes modes = by.solve(task);
   ByteWriter bytes;
   bytes(modes);
   entry.keep(bytes.bytes());
   return modes;
+}
+
+StructureModes solved(const StructureTask& task, const SceneDescription& scene) {
+  return solved(task, {arithmetic(),
+                       [&](const StructureTask& own) { return solve_on_all_ranks(own, scene); }});
 }
 
 /// What the eigensolver finds wrong lies in the files.
@@ -289,6 +283,23 @@ void check_names(const mesh::Mesh& mesh, const SceneDescription& scene) {
   }
   require_frames(mesh, scene);
   require_preload(mesh, scene);
+}
+
+std::string arithmetic() {
+  const Machine machine = describe_machine();
+  std::string text =
+      fmt::format("{}, {} threads, {} ranks", machine.blas, machine.blas_threads, fem::n_ranks());
+  for (const auto& [name, version] : fem::library_versions()) {
+    text += fmt::format(", {} {}", name, version);
+  }
+  return text;
+}
+
+StructureModes solve_structure(const mesh::Mesh& mesh, const SceneDescription& scene,
+                               const SolvedElsewhere& elsewhere) {
+  const StructureTask task = task_of(mesh, scene);
+  require_count(task, scene);
+  return solved(task, elsewhere);
 }
 
 StructureModes solve_structure(const mesh::Mesh& mesh, const SceneDescription& scene) {

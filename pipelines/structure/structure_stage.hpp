@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -38,6 +39,20 @@ void check_names(const mesh::Mesh& mesh, const SceneDescription& scene);
 /// (system/result_cache.hpp). The residual flexibility of a structure that floats is that of
 /// inertia relief.
 [[nodiscard]] StructureModes solve_structure(const mesh::Mesh& mesh, const SceneDescription& scene);
+
+/// How the same task is solved elsewhere, with the arithmetic there.
+struct SolvedElsewhere {
+  std::string arithmetic;
+  std::function<StructureModes(const StructureTask&)> solve;
+};
+
+/// The same solution bit for bit needs the same arithmetic: BLAS and its threads, ranks, libraries.
+/// @return that of this process, now.
+[[nodiscard]] std::string arithmetic();
+
+/// From any thread, elsewhere, of a scene without given modes or matrices and static preload.
+[[nodiscard]] StructureModes solve_structure(const mesh::Mesh& mesh, const SceneDescription& scene,
+                                             const SolvedElsewhere& elsewhere);
 
 /// The same where an earlier run has kept it: nothing is solved but the statics of a static
 /// preload. Empty: it has not.

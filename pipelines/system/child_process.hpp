@@ -1,5 +1,5 @@
 /// @file
-/// A script as a child process with a time limit.
+/// A script or program as a child process with a time limit.
 #pragma once
 
 #include <chrono>

@@ -12,6 +12,7 @@
 
 #include "pipelines/effects/model_family.hpp"
 #include "pipelines/scene/scene_file.hpp"
+#include "pipelines/structure/larger_elements.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/temporary_folder.hpp"
 
@@ -125,7 +126,8 @@ TEST(ExtrapolatedModes, AreLeftWhereTheBudgetHasNoRoomForCoarserMeshes) {
                  {"model.element_size=\"5 mm\"", "accuracy.tolerance=0.02"});
   SolvedStructure structure = raw_blade();
   begin_deadline(3.0, 0.0);  // a second and a half to work in
-  const std::string text = extrapolate_modes(structure, scene);
+  LargerElements larger(scene, structure.mesh, 1);
+  const std::string text = extrapolate_modes(structure, scene, larger);
   begin_deadline(std::numeric_limits<double>::infinity());
   EXPECT_NE(text.find("the budget leaves"), std::string::npos) << text;
   EXPECT_FALSE(structure.coarser);
