@@ -13,7 +13,8 @@ From: random scenes, 53.54 (five points with gaps, friction in a plane), 83.15 (
 point in a bend), 29.163 (hyperbolic law: a stall on the way against the range; with 5 % damping two events at once), 113.83 (a chain
 that parts: a step from before a kink to the part beyond it, which comes back), 113.225 (exponential law: four events at once)
 127.215 (friction in a plane: a point that sticks with a load of the mean begins to slip, two folds and one on the part walked before)
-and 501.30 (hyperbolic law: a step over three pairs of folds to a part of the branch beside the one it came by).
+501.30 (hyperbolic law: a step over three pairs of folds to a part of the branch beside the one it came by)
+and share/scenes/block_rough.toml at 80 N (an S of 1e-7 Hz, into which short steps lead and long ones do not).
 Right: complete, no fold is passed twice, from end to end they are even in number, and a part of the range has none more.
 
 usage: sharp_tips.py MICROSLIP WORK_FOLDER
@@ -28,16 +29,22 @@ from random_runs import scene_of
 from program_run import without_plots  # found by random_runs
 
 
+BLOCK = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "share", "scenes", "block_rough.toml")
+
+
 def solved(program, folder, scene, *settings):
     """Exit code and what the summary says of the curve."""
     os.makedirs(folder)
     path = os.path.join(folder, "scene.toml")
     with open(path, "w", encoding="utf-8") as file:
         file.write(scene_of(*scene)[1])
-    run = os.path.join(folder, "run")
+    return run_of(program, path, os.path.join(folder, "run"), *settings)
+
+
+def run_of(program, path, run, *settings, seconds=60):
     words = [word for setting in settings for word in ("--set", setting)]
     code = subprocess.run([program, "run", path, "-q", "-j", "1", "-o", run, "--without", "plots", *words, "--set",
-                           'response.time_budget="60 s"'], timeout=100, env=without_plots(), check=False).returncode
+                           f'response.time_budget="{seconds} s"'], timeout=seconds + 40, env=without_plots(), check=False).returncode
     with open(os.path.join(run, "summary.json"), encoding="utf-8") as file:
         curve, = json.load(file)["curves"]
     return code, curve
@@ -74,6 +81,11 @@ def main(program, folder):
     assert len(part["folds_Hz"]) == 6, part["folds_Hz"]
     lacks = [one for one in part["folds_Hz"] if all(abs(one - other) > 1e-9 * one for other in curve["folds_Hz"])]
     assert not lacks, lacks
+
+    code, curve = run_of(program, BLOCK, os.path.join(folder, "block"), "response.preload=[80]", "response.maps=[]",
+                         'accuracy.error_budget="off"', seconds=200)
+    print(f"rough block at 80 N: {curve['points']} points, {curve['diagnosis'] or 'complete'}")
+    assert code == 0 and curve["complete"], curve["message"]
 
 
 if __name__ == "__main__":
