@@ -47,7 +47,8 @@ enum class Remedy : std::uint8_t {
   peak_unsolved,
   fold_unsolved,  ///< likewise
   more_instants,  ///< the whole curve traced again, twice as many of a period sampled
-  row_left_out    ///< a solution whose proof fails is no row of the curve
+  row_left_out,   ///< a solution whose proof fails is no row of the curve
+  past_loop       ///< the whole curve traced again, over steps that led the walk back
 };
 
 namespace names {
@@ -89,6 +90,7 @@ inline constexpr std::array remedies{
     Name<Remedy>{Remedy::fold_unsolved, "fold-unsolved"},
     Name<Remedy>{Remedy::more_instants, "more-instants"},
     Name<Remedy>{Remedy::row_left_out, "row-left-out"},
+    Name<Remedy>{Remedy::past_loop, "past-loop"},
 };
 
 /// Whether a row is at the place of its value.

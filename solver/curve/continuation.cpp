@@ -69,6 +69,14 @@ ResponseCurve trace_backwards(const Scene& scene, ContinuationOptions options,
   return curve;
 }
 
+/// What another walk of the same curve has cost.
+void add_work(ResponseCurve& curve, const ResponseCurve& other) {
+  curve.iterations += other.iterations;
+  curve.contact_evaluations += other.contact_evaluations;
+  curve.state_readings += other.state_readings;
+  curve.state_cuts += other.state_cuts;
+}
+
 /// A step that is refused as it swerves may lead into a tip, far smaller than itself, from which a
 /// walk comes back: then such steps are taken.
 ResponseCurve traced_past_loops(const Scene& scene, ContinuationOptions options,
@@ -76,14 +84,14 @@ ResponseCurve traced_past_loops(const Scene& scene, ContinuationOptions options,
   ResponseCurve curve = CurveTracer(scene, options, observe).run();
   if (curve.diagnosis != Diagnosis::loop) return curve;
   options.refuse_swerves = false;
-  ResponseCurve past = CurveTracer(scene, std::move(options), observe).run();
-  ResponseCurve& kept = past.complete ? past : curve;
-  const ResponseCurve& other = past.complete ? curve : past;
-  kept.iterations += other.iterations;
-  kept.contact_evaluations += other.contact_evaluations;
-  kept.state_readings += other.state_readings;
-  kept.state_cuts += other.state_cuts;
-  return std::move(kept);
+  ResponseCurve past = CurveTracer(scene, options, observe).run();
+  if (!past.complete) {
+    add_work(curve, past);
+    return curve;
+  }
+  past.log.push_back({curve.points.back().frequency, Remedy::past_loop});
+  add_work(past, curve);
+  return past;
 }
 
 Eigen::MatrixXd limit_stiffness(const Scene& scene, LinearLimit limit) {
@@ -192,25 +200,20 @@ ResponseCurve trace_response(const Scene& scene, const ContinuationOptions& opti
       certified ? std::move(*certified) : traced_past_loops(scene, options, observe);
   if (!curve.complete && curve.certificate.empty() && curve.diagnosis != Diagnosis::interrupted) {
     ResponseCurve other = trace_backwards(scene, options, observe);
-    const long iterations = curve.iterations + other.iterations;
-    const long evaluations = curve.contact_evaluations + other.contact_evaluations;
-    const long readings = curve.state_readings + other.state_readings;
-    const long cuts = curve.state_cuts + other.state_cuts;
     const bool two_sides =
         curve.diagnosis == Diagnosis::unbounded && other.diagnosis == Diagnosis::unbounded &&
         curve.points.front().q.n_harmonics() == other.points.front().q.n_harmonics();
+    const bool is_better =
+        !two_sides && (other.complete || other.points.size() > curve.points.size());
+    add_work(is_better ? other : curve, is_better ? curve : other);
     if (two_sides) {
       curve.points.insert(curve.points.end(), other.points.begin(), other.points.end());
       curve.log.insert(curve.log.end(), other.log.begin(), other.log.end());
-    } else if (other.complete || other.points.size() > curve.points.size()) {
+    } else if (is_better) {
       other.log.insert(other.log.begin(), curve.log.begin(), curve.log.end());
       other.log.push_back({options.frequency_end, Remedy::other_end});
       curve = std::move(other);
     }
-    curve.iterations = iterations;
-    curve.contact_evaluations = evaluations;
-    curve.state_readings = readings;
-    curve.state_cuts = cuts;
   }
   note_boundary_peak(curve);
   if (options.search_starts > 0 && curve.diagnosis != Diagnosis::interrupted) {

@@ -11,8 +11,8 @@ At the limit of a stuck point whose friction falls with the speed four events me
 in which the branch goes on. Where folds are sought behind a kink Newton's method may find the part that was walked.
 From: random scenes, 53.54 (five points with gaps, friction in a plane), 83.15 (friction that falls with the speed: a branch
 point in a bend), 29.163 (hyperbolic law: a stall on the way against the range; with 5 % damping two events at once), 113.83 (a chain
-that parts: a step from before a kink to the part beyond it, which comes back), 113.225 (exponential law: four events at once)
-127.215 (friction in a plane: a point that sticks with a load of the mean begins to slip, two folds and one on the part walked before)
+that parts: a step from before a kink to the part beyond it, which comes back), 113.225 (exponential law: four events at once),
+127.215 (friction in a plane: a point that sticks with a load of the mean begins to slip, two folds and one on the part walked before),
 501.30 (hyperbolic law: a step over three pairs of folds to a part of the branch beside the one it came by)
 and share/scenes/block_rough.toml at 80 N (an S of 1e-7 Hz, into which short steps lead and long ones do not).
 Right: complete, no fold is passed twice, from end to end they are even in number, and a part of the range has none more.
@@ -84,8 +84,10 @@ def main(program, folder):
 
     code, curve = run_of(program, BLOCK, os.path.join(folder, "block"), "response.preload=[80]", "response.maps=[]",
                          'accuracy.error_budget="off"', seconds=200)
-    print(f"rough block at 80 N: {curve['points']} points, {curve['diagnosis'] or 'complete'}")
+    remedies = sorted({step["remedy"] for step in curve["remedies"]})
+    print(f"rough block at 80 N: {curve['points']} points, {curve['diagnosis'] or 'complete'}, {remedies}")
     assert code == 0 and curve["complete"], curve["message"]
+    assert "past-loop" in remedies, remedies  # else the scene does not lead into the S any more
 
 
 if __name__ == "__main__":
