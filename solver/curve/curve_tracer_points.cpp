@@ -24,14 +24,12 @@ StabilityReport CurveTracer::judged(const NewtonResult& at, PointMark mark) {
   const auto linear = damped_linear_stability(*balance_);
   StabilityReport slow = linear ? *linear : stability_at(at);
   if (!options_.judge_stability) slow.stability = Stability::not_assessed;
-  if (linear || !options_.judge_stability) return slow;
+  if (linear || !options_.judge_stability || mark == PointMark::fold) return slow;
   const double frequency = at.point.parameter;
-  const StabilityReport hill =
-      hill_stability(*balance_, balance_->harmonics(at.point.x), frequency, slow);
-  if (mark == PointMark::fold) return hill;
+  const Harmonics q = balance_->harmonics(at.point.x);
   const bool is_peak = mark == PointMark::peak;
-  return stability_in_time(*balance_, balance_->harmonics(at.point.x), frequency, hill,
-                           is_peak ? PeriodMapEffort::few_points : PeriodMapEffort::every_point);
+  return judged_stability(*balance_, q, frequency, std::move(slow),
+                          is_peak ? PeriodMapEffort::few_points : PeriodMapEffort::every_point);
 }
 
 ResponsePoint CurveTracer::certified(const NewtonResult& at, PointMark mark) {

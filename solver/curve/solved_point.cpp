@@ -1,5 +1,7 @@
 #include "solver/curve/solved_point.hpp"
 
+#include <utility>
+
 #include "solver/curve/certificate.hpp"
 #include "solver/stability/stability.hpp"
 
@@ -9,16 +11,13 @@ namespace {
 ResponsePoint judged_point(HarmonicBalance& balance, const NewtonResult& solution,
                            const ContinuationOptions& options) {
   const double frequency = solution.point.parameter;
+  StabilityReport slow = slow_flow_stability(balance, solution.evaluation.jacobian, frequency);
   if (!options.judge_stability) {
-    StabilityReport slow = slow_flow_stability(balance, solution.evaluation.jacobian, frequency);
     slow.stability = Stability::not_assessed;
     return certified_point(balance, solution, frequency, slow);
   }
-  const auto stability =
-      stability_in_time(balance, balance.harmonics(solution.point.x), frequency,
-                        assess_stability(balance, solution.evaluation.jacobian,
-                                         balance.harmonics(solution.point.x), frequency),
-                        PeriodMapEffort::few_points);
+  const auto stability = judged_stability(balance, balance.harmonics(solution.point.x), frequency,
+                                          std::move(slow), PeriodMapEffort::few_points);
   return certified_point(balance, solution, frequency, stability);
 }
 

@@ -22,7 +22,7 @@ constexpr double growth_tolerance = 1e-10;
 // Slow flow holds for what is slow against the cycle. Modes far from resonance turn at |ω_n ± ω| in
 // it, and the mean at ω_n: a hysteretic force answers those in another way, so they are not judged.
 constexpr double slow_share = 0.25;  // of ω
-// Of Hill's problem: some 7 ms for its eigenvectors.
+// Of Hill's problem: some 1.3 ms for its eigenvalues, 2 ms with their vectors.
 constexpr Eigen::Index most_states = 80;
 // Of ω, natural frequencies of modes that tell the width of a resonance: others answer like
 // springs.
@@ -263,6 +263,97 @@ bool is_damped_linear(const Scene& scene, const Harmonics& centre, double radius
   return false;
 }
 
+/// What is known without an exponent: a proof, one harmonic, a determinant that is negative.
+std::optional<StabilityReport> without_exponents(const HarmonicBalance& balance, const Harmonics& q,
+                                                 const StabilityReport& slow) {
+  StabilityReport report = slow;
+  const Scene& scene = balance.scene();
+  // Of a motion that sticks throughout it takes a sum over the points, and no eigenvalues.
+  const bool is_linear = damped_linear_stability(balance).has_value();
+  const bool several = balance.set().highest() > 1;
+  if (is_linear ||
+      (several && scene.contact && is_damped_linear(scene, q, nearby * q.vector().norm()))) {
+    report.stability = Stability::stable;
+    report.basis = StabilityBasis::damped_linear;
+    return report;
+  }
+  if (!several) return report;
+  if (!(slow.determinant_sign < 0.0)) return std::nullopt;
+  report.stability = Stability::unstable;
+  if (balance.has_mean() || !balance.set().has_mean()) report.basis = StabilityBasis::hill;
+  return report;
+}
+
+/// Hill's problem of some harmonics of some modes.
+struct HillProblem {
+  ReducedBalance low;
+  Eigen::MatrixXd matrix;
+};
+
+HillProblem hill_problem(const HarmonicBalance& balance, const Harmonics& q, double frequency,
+                         const ReducedBalance& slow) {
+  const bool is_odd = !balance.set().has_mean();
+  HillProblem problem{
+      is_odd ? even_part(balance.scene(), q, frequency, slow.modes)
+             : with_orders(slow, low_orders(balance.set().orders(), slow.modes.size())),
+      {}};
+  problem.matrix = hill_matrix(balance.scene(), problem.low, frequency);
+  return problem;
+}
+
+/// Over ω. @return none: the eigenvectors do not converge.
+std::optional<HillGrowth> growth_of(const HillProblem& problem) {
+  const auto pairs = contact::general_pairs(problem.matrix);
+  if (!pairs) return std::nullopt;
+  const Eigen::MatrixXcd vectors = pairs->vectors.topRows(problem.low.jacobian.rows());
+  // Exponents midway between two harmonics are conjugate pairs of copies of one another, centred as
+  // far on either side: those on one side are taken, each once.
+  // Others are best known, by as many harmonics above as below, as the pair nearest to harmonic 0.
+  constexpr double aside = 0.01;
+  std::vector<std::pair<double, Eigen::Index>> centres;
+  for (Eigen::Index i = 0; i < problem.matrix.rows(); ++i) {
+    centres.emplace_back(std::abs(centre_of(vectors.col(i), problem.low) - aside), i);
+  }
+  std::sort(centres.begin(), centres.end());
+  HillGrowth growth;
+  for (std::size_t i = 0; i < 2 * problem.low.modes.size(); ++i) {
+    const std::complex<double> value = pairs->values[centres[i].second];
+    const bool real = std::abs(value.imag() - std::round(value.imag())) < real_tolerance;
+    growth.largest = std::max(growth.largest, value.real());
+    if (real) growth.real = std::max(growth.real, value.real());
+  }
+  return growth;
+}
+
+/// Whether the period map may cost what it does.
+bool is_in_reach(const Scene& scene, PeriodMapEffort effort) {
+  if (!scene.transient) return false;
+  const Eigen::Index n_points = scene.transient->n_points();
+  if (effort == PeriodMapEffort::few_points) return n_points <= most_points_of_few;
+  return scene.transient->n_internal() == 0 && 2 * scene.n_modes() + n_points <= most_multipliers;
+}
+
+struct VerdictInTime {
+  Stability stability = Stability::not_assessed;  ///< by multipliers that are not real and positive
+  bool has_real_growth = false;                   ///< by those that are
+};
+
+/// @return none: the map is not known.
+std::optional<VerdictInTime> verdict_in_time(const Scene& scene, const Harmonics& q,
+                                             double frequency, PeriodMapEffort effort) {
+  const bool few = effort == PeriodMapEffort::few_points;
+  const FloquetMultipliers floquet =
+      floquet_multipliers(scene, frequency, q, few ? most_multipliers_of_few : most_multipliers);
+  if (!floquet.known()) return std::nullopt;
+  const double unsure = std::max(multiplier_tolerance, floquet.distance);
+  const double beyond = floquet.largest_oscillating() - 1.0;
+  VerdictInTime verdict;
+  verdict.has_real_growth = floquet.multipliers.cwiseAbs().maxCoeff() > 1.0 + unsure;
+  if (beyond > unsure) verdict = {Stability::unstable, false};
+  if (beyond < -unsure) verdict.stability = Stability::stable;
+  return verdict;
+}
+
 }  // namespace
 
 StabilityReport slow_flow_stability(const HarmonicBalance& balance, const BalanceJacobian& jacobian,
@@ -297,81 +388,62 @@ std::optional<StabilityReport> damped_linear_stability(const HarmonicBalance& ba
 
 StabilityReport hill_stability(const HarmonicBalance& balance, const Harmonics& q, double frequency,
                                StabilityReport slow) {
-  StabilityReport report = slow;
-  if (const auto linear = damped_linear_stability(balance)) {
-    report.stability = linear->stability;
-    report.basis = linear->basis;
-    return report;
-  }
-  if (balance.set().highest() == 1) return slow;
-  const Scene& scene = balance.scene();
-  // Of a motion that sticks throughout it takes a sum over the points, and no eigenvalues.
-  if (scene.contact && is_damped_linear(scene, q, nearby * q.vector().norm())) {
-    report.stability = Stability::stable;
-    report.basis = StabilityBasis::damped_linear;
-    return report;
-  }
-  const bool is_odd = !balance.set().has_mean();
-  if (!is_odd && !balance.has_mean()) return slow;
+  if (const auto settled = without_exponents(balance, q, slow)) return *settled;
+  if (balance.set().has_mean() && !balance.has_mean()) return slow;
+  StabilityReport report = std::move(slow);
   report.stability = Stability::not_assessed;
   report.basis = StabilityBasis::hill;
-  const auto n = static_cast<Eigen::Index>(slow.reduced->modes.size());
-  const ReducedBalance low =
-      is_odd ? even_part(scene, q, frequency, slow.reduced->modes)
-             : with_orders(*slow.reduced,
-                           low_orders(balance.set().orders(), slow.reduced->modes.size()));
-  const Eigen::MatrixXd matrix = hill_matrix(scene, low, frequency);
-  if (!matrix.allFinite()) return report;
-  const auto pairs = contact::general_pairs(matrix);
-  if (!pairs) return report;
-  const Eigen::MatrixXcd vectors = pairs->vectors.topRows(low.jacobian.rows());
-  // Exponents midway between two harmonics are conjugate pairs of copies of one another, centred as
-  // far on either side: those on one side are taken, each once.
-  // Others are best known, by as many harmonics above as below, as the pair nearest to harmonic 0.
-  constexpr double aside = 0.01;
-  std::vector<std::pair<double, Eigen::Index>> centres;
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    centres.emplace_back(std::abs(centre_of(vectors.col(i), low) - aside), i);
-  }
-  std::sort(centres.begin(), centres.end());
-  double real_growth = -std::numeric_limits<double>::infinity();
-  double growth = real_growth;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(2 * n); ++i) {
-    const std::complex<double> value = pairs->values[centres[i].second];  // over ω
-    const bool real = std::abs(value.imag() - std::round(value.imag())) < real_tolerance;
-    growth = std::max(growth, value.real());
-    if (real) real_growth = std::max(real_growth, value.real());
-  }
-  report.growth = growth * frequency;
-  if (report.determinant_sign < 0.0 || real_growth > growth_tolerance) {
+  const HillProblem problem = hill_problem(balance, q, frequency, *report.reduced);
+  if (!problem.matrix.allFinite()) return report;
+  // Copies grow as what they are copies of, those cut off at the highest harmonic at random: where
+  // none does, nothing is to be sorted, at two thirds of the cost.
+  const auto values = contact::general_eigenvalues(problem.matrix);
+  const bool none_grows = values && values->real().maxCoeff() <= growth_tolerance;
+  const auto growth = none_grows ? HillGrowth{} : growth_of(problem);
+  if (growth && growth->real > growth_tolerance) {
     report.stability = Stability::unstable;
-  } else if (growth <= growth_tolerance) {
+  } else if (growth && growth->largest <= growth_tolerance) {
     report.stability = Stability::stable;
   }
   return report;
 }
 
+std::optional<HillGrowth> hill_growth(const HarmonicBalance& balance, const Harmonics& q,
+                                      double frequency, const ReducedBalance& reduced) {
+  const HillProblem problem = hill_problem(balance, q, frequency, reduced);
+  auto growth = problem.matrix.allFinite() ? growth_of(problem) : std::nullopt;
+  if (growth) *growth = {growth->largest * frequency, growth->real * frequency};
+  return growth;
+}
+
 StabilityReport stability_in_time(const HarmonicBalance& balance, const Harmonics& q,
                                   double frequency, StabilityReport hill, PeriodMapEffort effort) {
-  const Scene& scene = balance.scene();
-  if (balance.set().highest() == 1 || !scene.transient) return hill;
+  if (balance.set().highest() == 1 || !is_in_reach(balance.scene(), effort)) return hill;
   if (hill.basis == StabilityBasis::damped_linear) return hill;
   if (hill.stability == Stability::unstable) return hill;
-  const Eigen::Index n_points = scene.transient->n_points();
-  const bool few = effort == PeriodMapEffort::few_points;
-  const bool dear =
-      scene.transient->n_internal() > 0 || 2 * scene.n_modes() + n_points > most_multipliers;
-  if (few ? n_points > most_points_of_few : dear) return hill;
-  const FloquetMultipliers floquet =
-      floquet_multipliers(scene, frequency, q, few ? most_multipliers_of_few : most_multipliers);
-  if (!floquet.known()) return hill;
+  const auto map = verdict_in_time(balance.scene(), q, frequency, effort);
+  if (!map) return hill;
   hill.basis = StabilityBasis::period_map;
-  const double beyond = floquet.largest_oscillating() - 1.0;
-  const double unsure = std::max(multiplier_tolerance, floquet.distance);
-  hill.stability = Stability::not_assessed;
-  if (beyond > unsure) hill.stability = Stability::unstable;
-  if (beyond < -unsure) hill.stability = Stability::stable;
+  hill.stability = map->stability;
   return hill;
+}
+
+StabilityReport judged_stability(const HarmonicBalance& balance, const Harmonics& q,
+                                 double frequency, StabilityReport slow, PeriodMapEffort effort) {
+  if (auto settled = without_exponents(balance, q, slow)) return std::move(*settled);
+  if (!is_in_reach(balance.scene(), PeriodMapEffort::every_point)) {
+    return stability_in_time(balance, q, frequency,
+                             hill_stability(balance, q, frequency, std::move(slow)), effort);
+  }
+  const auto map = verdict_in_time(balance.scene(), q, frequency, effort);
+  StabilityReport report = slow;
+  if (!map || map->has_real_growth) {
+    report = hill_stability(balance, q, frequency, std::move(slow));
+    if (!map || report.stability == Stability::unstable) return report;
+  }
+  report.basis = StabilityBasis::period_map;
+  report.stability = map->stability;
+  return report;
 }
 
 StabilityReport assess_stability(const HarmonicBalance& balance, const BalanceJacobian& jacobian,

@@ -22,6 +22,7 @@
 /// frequency and damping ratio above 0 all its perturbations decay.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -45,7 +46,7 @@ struct StabilityReport {
   Stability stability = Stability::not_assessed;
   StabilityBasis basis = StabilityBasis::slow_flow;
   double determinant_sign = 0.0;  ///< of ∂R/∂x: 1, −1, or 0 where it is singular
-  double growth = 0.0;  ///< largest real part of the eigenvalues judged [rad/s], −∞: there is none
+  double growth = 0.0;  ///< largest real part in the slow flow [rad/s], −∞: there is none
   /// How near, in frequency, a resonance of the linearised structure is, or how wide [rad/s].
   double nearest = 0.0;
   /// Of slow_flow_stability(), which hill_stability() goes on from.
@@ -72,6 +73,17 @@ struct StabilityReport {
 [[nodiscard]] StabilityReport hill_stability(const HarmonicBalance& balance, const Harmonics& q,
                                              double frequency, StabilityReport slow);
 
+/// Of Hill's exponents that are centred on harmonic 0 [rad/s]; −∞: there is none.
+struct HillGrowth {
+  double largest = -std::numeric_limits<double>::infinity();
+  double real = -std::numeric_limits<double>::infinity();  ///< of the real ones
+};
+
+/// @param reduced  that of slow_flow_stability().   @return none: they do not converge.
+[[nodiscard]] std::optional<HillGrowth> hill_growth(const HarmonicBalance& balance,
+                                                    const Harmonics& q, double frequency,
+                                                    const ReducedBalance& reduced);
+
 /// Of a scene without contact, or with one that is a spring; empty: not damped, or not known to be
 /// such a scene. det ∂R/∂x = |det D|² > 0.
 [[nodiscard]] std::optional<StabilityReport> damped_linear_stability(
@@ -96,6 +108,14 @@ enum class PeriodMapEffort {
 [[nodiscard]] StabilityReport stability_in_time(const HarmonicBalance& balance, const Harmonics& q,
                                                 double frequency, StabilityReport hill,
                                                 PeriodMapEffort effort);
+
+/// hill_stability() and stability_in_time(). Where every point may have its period map, that comes
+/// first: Hill's exponents are asked only where it is not known or has a real multiplier above 1
+/// though the determinant is positive.
+/// @param slow  slow_flow_stability() of the same point.
+[[nodiscard]] StabilityReport judged_stability(const HarmonicBalance& balance, const Harmonics& q,
+                                               double frequency, StabilityReport slow,
+                                               PeriodMapEffort effort);
 
 /// slow_flow_stability() and hill_stability().
 [[nodiscard]] StabilityReport assess_stability(const HarmonicBalance& balance,

@@ -103,7 +103,7 @@ std::optional<double> growth(const solver::Scene& scene, const solver::HarmonicS
   const solver::StabilityReport report =
       solver::assess_stability(balance, evaluation.jacobian, at.q, at.frequency);
   if (report.basis == solver::StabilityBasis::damped_linear) return std::nullopt;
-  return report.growth;
+  return solver::hill_growth(balance, at.q, at.frequency, *report.reduced).value().largest;
 }
 
 // The even half of the perturbations has the exponents of all; both are cut off at some harmonic.
