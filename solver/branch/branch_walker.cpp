@@ -44,7 +44,7 @@ constexpr int modest_attempts = 2;  // of a step, without Newton's method
 constexpr int wanted_iterations = 4;
 constexpr int wanted_updates = 12;  // of Broyden's method, by forces alone
 // Of a step, which is at most a fifth of a resonance wide: below it are rounding errors only.
-constexpr double exact_share = 1e-13;
+constexpr double exact_share = 1e-9;
 // Of a sampled force, whose Jacobian errs by some 1e-4: the square of this in the amplitude of a
 // peak.
 constexpr double sampled_share = 5e-3;
@@ -72,7 +72,6 @@ BranchWalker::BranchWalker(ParametricSystem system, ScalingRule rule, NewtonResu
 }
 
 BranchWalker::Trial BranchWalker::attempt(double distance, Effort effort) {
-  if (!residual_) return attempt(now_.tangent, distance, effort);
   // A learned predictor is worth its steps where a Jacobian is not at hand at each iterate.
   return corrected(predictor_.point(before_, now_, distance), now_.tangent, distance, effort);
 }

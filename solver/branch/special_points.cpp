@@ -328,10 +328,9 @@ class Segment {
     const double enough =
         0.1 * walker_.resolution() * std::max(std::abs(low_weight), std::abs(high_weight));
     std::optional<SpecialPoint> best;
-    const int last_cubic = walker_.is_sampled() ? n_cubics : 0;
     for (int i = 0; i < max_cuts && high.at.share - low.at.share > walker_.resolution(); ++i) {
       const double cut = low_weight / (low_weight - high_weight);
-      const double cubic = i < last_cubic ? CubicSlope(low, high).zero() : 0.0;
+      const double cubic = i < n_cubics ? CubicSlope(low, high).zero() : 0.0;
       const bool by_cubic = cubic > 0.0 && cubic < 1.0;
       const double line = i % 3 == 2 ? 0.5 : cut;
       std::optional<Node> point = inside(low, high, by_cubic ? cubic : line);

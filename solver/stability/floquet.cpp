@@ -22,6 +22,8 @@ using contact::ContactState;
 // P, and by the step tolerance over it: some 1e-5.
 constexpr double difference = 1e-4;
 constexpr double step_tolerance = 1e-9;
+// Where periods are not differenced: of instants at which states change.
+constexpr double step_tolerance_of_instants = 1e-7;
 // Multipliers nearer than this to the positive axis, in angle, count as real: a double one splits
 // by the root of the error of M.
 constexpr double real_angle = 1e-2;
@@ -30,9 +32,13 @@ constexpr double real_angle = 1e-2;
 // points take some two seconds.
 constexpr Eigen::Index most_differences = 600;
 
-TimeOptions period_options() {
+bool has_linear_states(const TimeSystem& system) {
+  return system.contact() == nullptr || system.contact()->is_held_linear();
+}
+
+TimeOptions period_options(const TimeSystem& system) {
   TimeOptions options;
-  options.step_tolerance = step_tolerance;
+  options.step_tolerance = has_linear_states(system) ? step_tolerance_of_instants : step_tolerance;
   return options;
 }
 
@@ -174,7 +180,7 @@ class Coordinates {
 };
 
 TimeState after_period(const TimeSystem& system, TimeState state) {
-  make_stepper(system, period_options())->advance_period(state, nullptr);
+  make_stepper(system, period_options(system))->advance_period(state, nullptr);
   return state;
 }
 
@@ -206,7 +212,7 @@ FloquetMultipliers multipliers_near(const TimeSystem& system, const Harmonics& q
                                     Eigen::Index most) {
   FloquetMultipliers result;
   TimeState at = state_on(system, q);
-  const auto stepper = make_stepper(system, period_options());
+  const auto stepper = make_stepper(system, period_options(system));
   stepper->advance_period(at, nullptr);
   SliderWatch watch(at.memory.state.size());
   TimeState end = at;
@@ -217,7 +223,7 @@ FloquetMultipliers multipliers_near(const TimeSystem& system, const Harmonics& q
   const auto missed = coordinates.between(at, end);
   if (!missed) return result;
   result.distance = missed->norm();
-  const bool is_linear = system.contact() == nullptr || system.contact()->is_held_linear();
+  const bool is_linear = has_linear_states(system);
   const auto n_points = static_cast<Eigen::Index>(at.memory.state.size());
   if (!is_linear && coordinates.size() * n_points > most_differences) return result;
   // Sliders shake down to where the motion leaves them: what one still moves by then may be the
