@@ -15,8 +15,6 @@ namespace {
 constexpr int max_halvings = 7;
 constexpr int max_polish = 4;
 constexpr double polished_below = 5e-11;  // a tolerance above asks for no more than it says
-// Below this nothing is gained: what is left of the residual is rounding of its sums.
-constexpr double polished_to = 2e-15;
 constexpr double rounding_level = 1e-14;  // a shorter step cannot help any more
 
 class Iteration {
@@ -36,7 +34,7 @@ class Iteration {
       ++now_.iterations;
     }
     now_.converged = now_.residual <= tolerance;
-    if (now_.converged && options.tolerance < polished_below) polish();
+    if (now_.converged && options.tolerance < polished_below) polish(options.polished_to);
     return std::move(now_);
   }
 
@@ -90,8 +88,8 @@ class Iteration {
 
   /// Goes on while the residual falls; near a kink a shorter step may do what the whole one does
   /// not.
-  void polish() {
-    for (int i = 0; i < max_polish && now_.residual > polished_to; ++i) {
+  void polish(double to) {
+    for (int i = 0; i < max_polish && now_.residual > to; ++i) {
       const BranchVector direction = newton_step(now_.evaluation, constraint_, scaling_);
       if (!direction.x.allFinite() || !std::isfinite(direction.parameter)) return;
       const double before = now_.residual;

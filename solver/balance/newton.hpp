@@ -41,9 +41,13 @@ struct BranchVector {
   double parameter = 0.0;
 };
 
+/// Of ‖R‖ / scaling.residual: below it what is left is rounding of sums.
+inline constexpr double rounding_of_residual = 2e-15;
+
 struct NewtonOptions {
   double tolerance = 1e-11;  ///< of ‖R‖ / scaling.residual; at least scaling.rounding
-  int max_iterations = 15;   ///< 0: no step of Newton's method (few_jacobians.hpp)
+  double polished_to = rounding_of_residual;  ///< what is converged is solved on, while that pays
+  int max_iterations = 15;                    ///< 0: no step of Newton's method (few_jacobians.hpp)
   /// Asked between steps, which of a fine patch take up to a second: true ends them, not converged.
   const std::function<bool()>* stop = nullptr;
   /// Steps of the line search among them: no step of Newton's method begins beyond.
@@ -72,7 +76,7 @@ struct NewtonResult {
 };
 
 /// Steps satisfy c_x·Δx/σ_x + c_p Δp/σ_p = 0. After a tolerance below 5e-11 is met the iteration
-/// goes on while the residual still falls: points carry rounding error only.
+/// goes on to `polished_to` while the residual still falls.
 /// A coarser tolerance is meant as it stands.
 /// @param constraint  (c_x, c_p) in scaled variables; (0, 1) holds the parameter.
 [[nodiscard]] NewtonResult solve_newton(const ParametricSystem& system, const BranchVector& start,

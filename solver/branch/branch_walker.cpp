@@ -40,11 +40,12 @@ constexpr double seen_swerve = 0.03;  // worth that look
 // between the tangents: a kink anywhere leaves an eighth of it at most.
 constexpr double most_off = 0.04;
 constexpr double most_off_by_turn = 0.15;
-constexpr int modest_attempts = 2;  // of a step, without Newton's method
+constexpr double polished_on_the_way = 1e-13;  // of the residual: rounding, or next to it
+constexpr int modest_attempts = 2;             // of a step, without Newton's method
 constexpr int wanted_iterations = 4;
 constexpr int wanted_updates = 12;  // of Broyden's method, by forces alone
 // Of a step, which is at most a fifth of a resonance wide: below it are rounding errors only.
-constexpr double exact_share = 1e-9;
+constexpr double exact_share = 1e-13;
 // Of a sampled force, whose Jacobian errs by some 1e-4: the square of this in the amplitude of a
 // peak.
 constexpr double sampled_share = 5e-3;
@@ -72,7 +73,9 @@ BranchWalker::BranchWalker(ParametricSystem system, ScalingRule rule, NewtonResu
 }
 
 BranchWalker::Trial BranchWalker::attempt(double distance, Effort effort) {
-  // A learned predictor is worth its steps where a Jacobian is not at hand at each iterate.
+  // A learned predictor is worth its steps where a Jacobian is not at hand at each iterate. Exact
+  // forces have it, and what the tangent misses tells of kinks that the predictor leads past.
+  if (!residual_) return attempt(now_.tangent, distance, effort);
   return corrected(predictor_.point(before_, now_, distance), now_.tangent, distance, effort);
 }
 
@@ -86,7 +89,9 @@ BranchWalker::Trial BranchWalker::corrected(const BranchVector& predicted,
                                             const BranchVector& direction, double distance,
                                             Effort effort) {
   Trial trial;
-  NewtonOptions options{tolerance_, effort.iterations};
+  NewtonOptions options{.tolerance = tolerance_, .max_iterations = effort.iterations};
+  // Beside a branch point the residual is the square of an error of the place.
+  if (distance >= kink_step) options.polished_to = polished_on_the_way;
   if (!residual_) options.max_evaluations = effort.evaluations;
   NewtonResult solution = solved(predicted, direction, options, now_);
   evaluations_ += solution.evaluations;
@@ -148,7 +153,8 @@ bool BranchWalker::is_elsewhere_halfway(const Trial& trial) {
   chord.parameter /= size;
   const BranchVector middle = cubic_between(Knot(now_, chord, size, scaling),
                                             Knot(trial.point, chord, size, scaling), 0.5, 1.0);
-  const NewtonResult next = solve_newton(system_, middle, chord, scaling, {tolerance_, 1});
+  const NewtonResult next =
+      solve_newton(system_, middle, chord, scaling, {.tolerance = tolerance_, .max_iterations = 1});
   evaluations_ += next.evaluations;
   const double off = length(difference(next.point, middle, scaling)) / size;
   return off > std::max(most_off, most_off_by_turn * angle_of(trial.cosine));
@@ -348,9 +354,7 @@ std::optional<WalkerPoint> BranchWalker::corrected(const BranchVector& start,
                                                    const WalkerPoint& nearby) {
   const Scaling& scaling = now_.scaling;
   // Next to a kink an iterate of the wrong side meets the usual tolerance, with the wrong tangent.
-  const double tight = 1e-14;
-  NewtonResult solution =
-      solved(start, chord, {.tolerance = residual_ ? tolerance_ : tight}, nearby);
+  NewtonResult solution = solved(start, chord, {.tolerance = tolerance_}, nearby);
   evaluations_ += solution.evaluations;
   iterations_ += solution.iterations;
   const double tolerance = std::max(tolerance_, scaling.rounding);
@@ -397,7 +401,7 @@ std::optional<StepPoint> BranchWalker::between(const StepPoint& a, const StepPoi
 NewtonResult BranchWalker::at_parameter(double parameter, double share) {
   const auto& a = before_.solution.point;
   const auto& b = now_.solution.point;
-  const NewtonOptions options{tolerance_, 30};
+  const NewtonOptions options{.tolerance = tolerance_, .max_iterations = 30};
   NewtonResult result =
       solve_newton(system_, {a.x + share * (b.x - a.x), parameter}, now_.scaling, options);
   evaluations_ += result.evaluations;

@@ -19,6 +19,8 @@ constexpr int max_cuts =
     90;  // bisection alone needs 44 for a share of 1e-13, and a third are bisections
 // Of sampled forces, whose branch has no kinks that matter; exact ones show theirs.
 constexpr int n_cubics = 4;
+// Of the steeper end: a slope that is this small and does not fall any more is rounding.
+constexpr double level_share = 1e-8;
 // Places of one step where nothing solves the equations: where the branch turns back between its
 // ends, or where forces jump, as sampled ones may by 1e-5 of their scale. There each costs as much
 // as twenty that are solved.
@@ -325,8 +327,10 @@ class Segment {
     const bool rises = low.value.slope > 0.0;
     double low_weight = low.value.slope;
     double high_weight = high.value.slope;
-    const double enough =
-        0.1 * walker_.resolution() * std::max(std::abs(low_weight), std::abs(high_weight));
+    const double steeper = std::max(std::abs(low_weight), std::abs(high_weight));
+    const double enough = 0.1 * walker_.resolution() * steeper;
+    const double level = level_share * steeper;
+    double least = std::numeric_limits<double>::infinity();
     std::optional<SpecialPoint> best;
     for (int i = 0; i < max_cuts && high.at.share - low.at.share > walker_.resolution(); ++i) {
       const double cut = low_weight / (low_weight - high_weight);
@@ -336,8 +340,10 @@ class Segment {
       std::optional<Node> point = inside(low, high, by_cubic ? cubic : line);
       if (!point) return unsolved(low, high);
       const double slope = point->value.slope;
+      if (std::abs(slope) <= level && std::abs(slope) > 0.25 * least) break;  // rounding
       best = SpecialPoint{point->at.share, point->at.point.solution, kind_, true};
-      if (std::abs(slope) <= enough || cut <= 0.0 || cut >= 1.0) break;
+      least = std::abs(slope);
+      if (least <= enough || cut <= 0.0 || cut >= 1.0) break;
       const bool is_low = (slope > 0.0) == rises;
       (is_low ? low : high) = std::move(*point);
       (is_low ? low_weight : high_weight) = slope;

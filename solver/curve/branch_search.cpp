@@ -29,6 +29,7 @@ constexpr double same_frequency = 1e-4;  // closer to another by this share of i
 constexpr int most_iterations = 60;
 constexpr int most_halvings = 6;
 constexpr double longest_step = 3.0;  // of the amplitude: deflation scales steps without bound
+constexpr double unbounded = 1e6;     // of a linear response, over the amplitude
 // Closer to a known solution, over the amplitude, it is that solution.
 constexpr double distinct = 1e-5;
 constexpr std::size_t most_branches = 10;
@@ -216,7 +217,12 @@ class Search {
         base == 0   ? balance_->linear_response(frequency, balance_->stuck_stiffness())
         : base == 1 ? balance_->linear_response(frequency, Eigen::MatrixXd::Zero(n, n))
                     : known[static_cast<std::size_t>(base - 2)];
-    if (!x.allFinite()) x = Eigen::VectorXd::Ones(x.size());
+    double size = 0.0;
+    for (const Eigen::VectorXd& other : known) size = std::max(size, other.norm());
+    // At a resonance without damping a linear response has no size that tells anything.
+    const bool is_bounded = x.allFinite() && (size == 0.0 || x.norm() < unbounded * size);
+    if (!is_bounded)
+      x.setConstant(size > 0.0 ? size / std::sqrt(static_cast<double>(x.size())) : 1.0);
     Harmonics q =
         balance_->harmonics(factors[static_cast<std::size_t>(round) % factors.size()] * x);
     const double turn = 1.0 * round;  // rad: never the same twice
@@ -342,8 +348,20 @@ class Search {
         branch.points.assign(back.points.rbegin(), back.points.rend() - 1);
       }
     }
+    const std::size_t start_at = branch.points.size();
     branch.points.insert(branch.points.end(), ahead.points.begin(), ahead.points.end());
+    mark_peak_at(start_at, branch);
     return branch;
+  }
+
+  /// Where the walk began no step has seen the slope change its sign.
+  static void mark_peak_at(std::size_t i, DetachedBranch& branch) {
+    std::vector<ResponsePoint>& points = branch.points;
+    if (points.size() < 3 || i + 1 >= points.size() || (i == 0 && !branch.closed)) return;
+    ResponsePoint& here = points[i];
+    const ResponsePoint& before = i > 0 ? points[i - 1] : points.back();
+    const double beside = std::max(before.amplitude, points[i + 1].amplitude);
+    if (here.mark == PointMark::none && here.amplitude > beside) here.mark = PointMark::peak;
   }
 
   void note_end(const ResponseCurve& branch) {

@@ -104,8 +104,8 @@ ResponsePoint certified_point(HarmonicBalance& balance, const NewtonResult& solu
 }
 
 Gates gates_of(HarmonicBalance& balance, const ResponsePoint& point, double asked_residual) {
-  constexpr double closest = 1e-10;  // of works that are exchanged: rounding of common sums
-  constexpr double several = 16.0;   // roundings of the sums
+  constexpr double closest = customary_imbalance;
+  constexpr double several = 16.0;  // roundings of the sums
   constexpr double events = 1e-9;
   constexpr double near_by = 4.0;  // rounding was taken of a point near by as this was solved
   Gates gates{asked_residual, closest, closest, events};

@@ -33,6 +33,9 @@ namespace microslip::solver {
 [[nodiscard]] ResponsePoint certified_point(HarmonicBalance& balance, const NewtonResult& solution,
                                             double frequency, const StabilityReport& stability);
 
+/// Of works that are exchanged: rounding of common sums.
+inline constexpr double customary_imbalance = 1e-10;
+
 /// What a row may have at most, each as the value of ResponsePoint it is for.
 struct Gates {
   double residual = 0.0;

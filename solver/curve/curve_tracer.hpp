@@ -54,6 +54,7 @@ class CurveTracer {
   [[nodiscard]] StabilityReport judged(const NewtonResult& at, PointMark mark);
   [[nodiscard]] ResponsePoint certified(const NewtonResult& at, PointMark mark);
   /// What keeps it from being a row; empty: nothing.
+  [[nodiscard]] bool gains_from_closer(const NewtonResult& at, const ResponsePoint& point) const;
   [[nodiscard]] std::string objection_to(const ResponsePoint& point);
   /// Where its proof fails the solution is solved closer, and left out if that does not help.
   /// False: the observer asked to stop, or too many were left out.

@@ -50,9 +50,17 @@ std::string CurveTracer::objection_to(const ResponsePoint& point) {
   return objection(point, gates);
 }
 
+/// Steps leave residuals next to rounding; what little work is done may be next to that.
+bool CurveTracer::gains_from_closer(const NewtonResult& at, const ResponsePoint& point) const {
+  return options_.corrector == ContinuationOptions::Corrector::newton &&
+         point.energy_imbalance > customary_imbalance && at.residual > rounding_of_residual;
+}
+
 bool CurveTracer::add(const NewtonResult& at, PointMark mark, Held held) {
   ResponsePoint point = certified(at, mark);
-  if (objection_to(point).empty()) return add_certified(std::move(point));
+  if (objection_to(point).empty() && !gains_from_closer(at, point)) {
+    return add_certified(std::move(point));
+  }
   const NewtonResult closer = solved_closer(*balance_, at, held);
   curve_.contact_evaluations += closer.evaluations;
   return add(certified(closer, mark));

@@ -7,13 +7,18 @@
 namespace microslip::solver {
 namespace {
 
-/// The minimum of a parabola through three points, relative to the first;
-/// infinite where they lie on a line.
-double parabola_step(const std::array<double, 3>& at, const std::array<double, 3>& value) {
+/// The minimum of a parabola through three points, relative to the first; infinite beyond `most`, as
+/// where they lie on a line, and where a value is not known.
+double parabola_step(const std::array<double, 3>& at, const std::array<double, 3>& value,
+                     double most) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (!std::isfinite(value[0] + value[1] + value[2])) return infinity;
   const double r = (at[0] - at[1]) * (value[0] - value[2]);
   const double q = (at[0] - at[2]) * (value[0] - value[1]);
-  if (q == r) return std::numeric_limits<double>::infinity();
-  return -0.5 * ((at[0] - at[2]) * q - (at[0] - at[1]) * r) / (q - r);
+  const double twice = (at[0] - at[1]) * r - (at[0] - at[2]) * q;
+  const double bend = q - r;
+  const bool near = std::abs(twice) < 2.0 * most * std::abs(bend);
+  return near ? 0.5 * twice / bend : infinity;
 }
 
 }  // namespace
@@ -28,7 +33,7 @@ void minimise(const std::function<double(double)>& f, const Bracket& bracket, do
   double before_last = last;
   while (c - a > bracket_left * tolerance) {
     const double middle = 0.5 * (a + c);
-    double step = parabola_step(x, value);
+    double step = parabola_step(x, value, c - a);
     // A parabola that leaves the bracket or does not halve the step before last is not trusted.
     const bool trusted = x[0] + step > a && x[0] + step < c && std::abs(step) < 0.5 * before_last;
     if (!trusted) step = golden * ((x[0] < middle ? c : a) - x[0]);

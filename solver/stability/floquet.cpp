@@ -23,7 +23,7 @@ using contact::ContactState;
 constexpr double difference = 1e-4;
 constexpr double step_tolerance = 1e-9;
 // Where periods are not differenced: of instants at which states change.
-constexpr double step_tolerance_of_instants = 1e-7;
+constexpr double step_tolerance_of_instants = 1e-8;
 // Multipliers nearer than this to the positive axis, in angle, count as real: a double one splits
 // by the root of the error of M.
 constexpr double real_angle = 1e-2;
