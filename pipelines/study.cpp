@@ -44,7 +44,7 @@ int run_study(const SceneDescription& asked, const RunOptions& options) {
                                   solution.curves, record.progress());
     keep_budgets(solution, record);
     static_cast<void>(put_back_missed_effects(solution, options.jobs, record));
-    refine_to_tolerance(solution, options.jobs, record);
+    refine_to_tolerance(solution, options, record);
     record.tell_effects();
     if (solution.structure)
       ask(record.progress(), scene, solution.structure->mesh, solution.curves);

@@ -22,6 +22,7 @@ struct Refinement {
   double seconds = 0.0;            ///< about, of the round; 0: not known
   double structure_seconds = 0.0;  ///< of those, of mesh and modes
   double curve_seconds = 0.0;      ///< of its curves, without their errors
+  double until_end = 0.0;          ///< by the clock: the round, and what follows the curves with it
 };
 
 /// What a scene has cost so far.
@@ -34,7 +35,10 @@ struct SpentSeconds {
   std::optional<double> inexact_curves{};
   std::optional<double> inexact_errors{};
   bool extrapolated = false;  ///< the modes: the error of the mesh falls faster
-  double available = std::numeric_limits<double>::infinity();  ///< time there is for a round
+  int jobs = 1;               ///< cores that share curves and their errors
+  /// By the clock: maps and the search for a best value, with the curves as they are.
+  double after = 0.0;
+  double available = std::numeric_limits<double>::infinity();  ///< time there is for all of it
 };
 
 /// The largest bar of all budgets, of amplitude or frequency; infinite where one has none,

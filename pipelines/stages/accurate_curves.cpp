@@ -12,6 +12,7 @@
 #include "pipelines/accuracy/refinement.hpp"
 #include "pipelines/stages/missed_effects.hpp"
 #include "pipelines/stages/solved_again.hpp"
+#include "pipelines/stages/stage_seconds.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/machine_speed.hpp"
 #include "pipelines/text/rounded.hpp"
@@ -29,9 +30,19 @@ double seconds_of_errors(const CurveBudget& budget) {
   return seconds;
 }
 
-SpentSeconds spent_on(const Solution& solution) {
+/// Maps, and the search for a best value, as the curves are now.
+double seconds_after(const Solution& solution, const RunOptions& options) {
+  const SceneDescription& scene = solution.scene;
+  const double maps = options.maps ? picture_seconds(scene).maps / options.jobs : 0.0;
+  if (!scene.response->optimum) return maps;
+  return maps + optimum_seconds(solution.model, scene, solution.curves, options.bracket);
+}
+
+SpentSeconds spent_on(const Solution& solution, const RunOptions& options) {
   SpentSeconds spent;
   spent.available = seconds_to_work();
+  spent.jobs = options.jobs;
+  spent.after = seconds_after(solution, options);
   if (solution.structure) {
     spent.structure = seconds_of_structure(solution.structure->modes);
     spent.extrapolated = solution.structure->coarser != nullptr;
@@ -117,7 +128,7 @@ double seconds_of_structure(const StructureModes& modes) {
   return machine_slowness() * per_freedom * static_cast<double>(modes.n_dofs);  // from the cache
 }
 
-void refine_to_tolerance(Solution& solution, int jobs, RunRecord& record) {
+void refine_to_tolerance(Solution& solution, const RunOptions& options, RunRecord& record) {
   AccuracySummary accuracy;
   accuracy.asked = solution.scene.accuracy.tolerance;
   if (accuracy.asked == 0.0) return;
@@ -127,23 +138,25 @@ void refine_to_tolerance(Solution& solution, int jobs, RunRecord& record) {
   for (int i = 0; i < most_rounds && has_budgets(solution); ++i) {
     if (accuracy.reached <= accuracy.asked) break;
     std::string left;
-    const auto next =
-        refinement(solution.scene, solution.budgets, accuracy.asked, spent_on(solution), left);
+    const SpentSeconds spent = spent_on(solution, options);
+    const auto next = refinement(solution.scene, solution.budgets, accuracy.asked, spent, left);
     missing =
         next ? fmt::format("next: {}, some {} or more", next->text, seconds_text(next->seconds))
              : fmt::format("this program cannot refine what is left{}{}", left.empty() ? "" : ": ",
                            left);
-    // A mesh that is begun cannot be stopped; what curves take is told less well. Time that a round
-    // would only use up is left to maps and best value.
-    const double unsure = next && next->new_mesh ? 1.0 : 2.0;
-    const bool too_long = next && next->seconds > unsure * seconds_to_work();
+    // A mesh that is begun cannot be stopped, and a best value that is not found to its end is
+    // none; what curves take is told less well. Time that a round would only use up is left to
+    // those.
+    const double unsure = next && (next->new_mesh || solution.scene.response->optimum) ? 1.0 : 2.0;
+    const bool too_long = next && next->until_end > unsure * spent.available;
     if (!next || cut_short() || (too_long && leave_out())) break;
     record.progress().info(fmt::format("{}; now with {}, some {} of one core",
                                        reached_text(accuracy), next->text,
                                        seconds_text(next->seconds)));
     const double begin = seconds_spent();
     std::string obstacle;
-    std::optional<SolvedAgain> round = refined(solution, *next, jobs, record.progress(), obstacle);
+    std::optional<SolvedAgain> round =
+        refined(solution, *next, options.jobs, record.progress(), obstacle);
     if (!round) {
       missing =
           fmt::format("next: {}, more than {}", next->text, seconds_text(seconds_spent() - begin));
@@ -154,7 +167,7 @@ void refine_to_tolerance(Solution& solution, int jobs, RunRecord& record) {
     solution = std::move(round->solution);
     accuracy.refined.push_back(next->text);
     // What was rightly left out of the coarser model need not be so of this one.
-    if (puts_back) puts_back = put_back_missed_effects(solution, jobs, record);
+    if (puts_back) puts_back = put_back_missed_effects(solution, options.jobs, record);
     look_at(solution, record, accuracy);
   }
   const bool met = accuracy.reached <= accuracy.asked;

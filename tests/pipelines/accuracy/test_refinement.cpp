@@ -209,6 +209,24 @@ TEST(Refinement, WithLittleTimeDoesWhatThereIsTimeFor) {
   EXPECT_LE(step->seconds, hurried.available);
 }
 
+TEST(Refinement, LeavesTimeToTheBestValue) {
+  std::string left;
+  const std::vector<CurveBudget> told{budget({{"harmonics", 0.08}})};
+  SpentSeconds hurried = spent;
+  const auto alone = refinement(blade(), told, tolerance, hurried, left);
+  hurried.after = 2.0 * spent.curves;
+  const auto with_search = refinement(blade(), told, tolerance, hurried, left);
+  hurried.jobs = 2;
+  const auto shared = refinement(blade(), told, tolerance, hurried, left);
+  ASSERT_TRUE(alone && with_search && shared);
+  EXPECT_DOUBLE_EQ(alone->until_end, alone->seconds);
+  EXPECT_DOUBLE_EQ(with_search->seconds, alone->seconds);
+  // A search takes longer with the harmonics of the round, though less so than the curves.
+  EXPECT_GT(with_search->until_end, alone->seconds + hurried.after);
+  EXPECT_LT(with_search->until_end, alone->seconds * (1.0 + hurried.after / spent.curves));
+  EXPECT_DOUBLE_EQ(shared->until_end, with_search->until_end - 0.5 * alone->seconds);
+}
+
 // A round that there is time for, and that leaves nearly all, is no reason to be silent about what
 // would be needed.
 TEST(Refinement, NamesTheRoundThatThereIsNoTimeFor) {
