@@ -6,6 +6,8 @@
 /// Matrices are square unless said otherwise; numbers that are not finite go through, as in Eigen.
 #pragma once
 
+#include <complex>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -71,6 +73,11 @@ struct GeneralPairs {
 /// Of any real matrix. @return none: they do not converge.
 [[nodiscard]] std::optional<Eigen::VectorXcd> general_eigenvalues(const Eigen::MatrixXd& A);
 [[nodiscard]] std::optional<GeneralPairs> general_pairs(const Eigen::MatrixXd& A);
+/// All values, and the vectors of those that are wanted, for a fraction of the time of all.
+/// @param wanted  asked of values with imaginary part ≥ 0; holds for their conjugates as well.
+/// @return        columns of others are 0; none: something did not converge.
+[[nodiscard]] std::optional<GeneralPairs> general_pairs(
+    const Eigen::MatrixXd& A, const std::function<bool(std::complex<double>)>& wanted);
 
 /// e^A by scaling and squaring of Padé's approximant (Higham, SIAM J. Matrix Anal. Appl.
 /// 26 (2005) 1179–1193).

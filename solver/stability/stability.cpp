@@ -325,6 +325,21 @@ std::optional<HillGrowth> growth_of(const HillProblem& problem) {
   return growth;
 }
 
+/// Whether all that grows is far from harmonic 0: copies, cut off at the highest harmonic.
+bool only_copies_grow(const HillProblem& problem) {
+  constexpr double far = 0.75;
+  const auto grows = [](std::complex<double> value) { return value.real() > growth_tolerance; };
+  const auto pairs = contact::general_pairs(problem.matrix, grows);
+  if (!pairs) return false;
+  const auto vectors = pairs->vectors.topRows(problem.low.jacobian.rows());
+  for (Eigen::Index i = 0; i < pairs->values.size(); ++i) {
+    const bool is_near =
+        grows(pairs->values[i]) && !(std::abs(centre_of(vectors.col(i), problem.low)) >= far);
+    if (is_near) return false;
+  }
+  return true;
+}
+
 /// Whether the period map may cost what it does.
 bool is_in_reach(const Scene& scene, PeriodMapEffort effort) {
   if (!scene.transient) return false;
@@ -395,11 +410,8 @@ StabilityReport hill_stability(const HarmonicBalance& balance, const Harmonics& 
   report.basis = StabilityBasis::hill;
   const HillProblem problem = hill_problem(balance, q, frequency, *report.reduced);
   if (!problem.matrix.allFinite()) return report;
-  // Copies grow as what they are copies of, those cut off at the highest harmonic at random: where
-  // none does, nothing is to be sorted, at two thirds of the cost.
-  const auto values = contact::general_eigenvalues(problem.matrix);
-  const bool none_grows = values && values->real().maxCoeff() <= growth_tolerance;
-  const auto growth = none_grows ? HillGrowth{} : growth_of(problem);
+  // Where nothing grows but copies, nothing is to be sorted: less than half the cost.
+  const auto growth = only_copies_grow(problem) ? HillGrowth{} : growth_of(problem);
   if (growth && growth->real > growth_tolerance) {
     report.stability = Stability::unstable;
   } else if (growth && growth->largest <= growth_tolerance) {

@@ -56,6 +56,22 @@ TEST_P(DenseOfSize, PairsAreOfTheMatrix) {
   EXPECT_LT(std::abs(values->sum() - A.trace()), 1e-9 * A.norm());
 }
 
+TEST_P(DenseOfSize, PairsThatAreWanted) {
+  const Eigen::MatrixXd A = random_matrix(GetParam(), 5);
+  const auto wanted = [](std::complex<double> value) { return value.real() > 0.5; };
+  const auto pairs = general_pairs(A, wanted);
+  const auto all = general_eigenvalues(A);
+  ASSERT_TRUE(pairs && all);
+  EXPECT_LT(std::abs(pairs->values.sum() - all->sum()), 1e-10 * A.norm());
+  for (Eigen::Index i = 0; i < GetParam(); ++i) {
+    const Eigen::VectorXcd v = pairs->vectors.col(i);
+    const std::complex<double> value = pairs->values[i];
+    EXPECT_LT((all->array() - value).abs().minCoeff(), 1e-10 * A.norm());
+    EXPECT_NEAR(v.norm(), wanted(value) ? 1.0 : 0.0, 1e-12);
+    EXPECT_LT((A.cast<std::complex<double>>() * v - value * v).norm(), 1e-10 * A.norm());
+  }
+}
+
 TEST_P(DenseOfSize, NullDirectionOrNone) {
   const Eigen::Index n = GetParam();
   Eigen::MatrixXd A = random_matrix(n + 1, 4).topRows(n);
