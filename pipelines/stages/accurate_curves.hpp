@@ -16,8 +16,8 @@ namespace microslip::pipelines {
 
 /// Refines a solution that is kept in the record, where the scene asks for a tolerance; a finer one
 /// that was solved in time takes its place, there and in the record. Effects that turn out to
-/// matter on it are put back. Within a budget of time a round is begun only where maps and best value
-/// have theirs as well.
+/// matter on it are put back. Within a budget of time a round is begun only where maps and best
+/// value have theirs as well.
 /// @param options  what follows, and how many cores there are.
 /// @throws as model_of(), solved_structure().
 void refine_to_tolerance(Solution& solution, const RunOptions& options, RunRecord& record);

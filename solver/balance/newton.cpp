@@ -34,7 +34,9 @@ class Iteration {
       ++now_.iterations;
     }
     now_.converged = now_.residual <= tolerance;
-    if (now_.converged && options.tolerance < polished_below) polish(options.polished_to);
+    if (now_.converged && options.tolerance < polished_below) {
+      polish(std::max(options.polished_to, scaling_.rounding));
+    }
     return std::move(now_);
   }
 

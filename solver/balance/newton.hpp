@@ -46,8 +46,9 @@ inline constexpr double rounding_of_residual = 2e-15;
 
 struct NewtonOptions {
   double tolerance = 1e-11;  ///< of ‖R‖ / scaling.residual; at least scaling.rounding
-  double polished_to = rounding_of_residual;  ///< what is converged is solved on, while that pays
-  int max_iterations = 15;                    ///< 0: no step of Newton's method (few_jacobians.hpp)
+  /// What is converged is solved on to this, or to scaling.rounding, while that pays.
+  double polished_to = rounding_of_residual;
+  int max_iterations = 15;  ///< 0: no step of Newton's method (few_jacobians.hpp)
   /// Asked between steps, which of a fine patch take up to a second: true ends them, not converged.
   const std::function<bool()>* stop = nullptr;
   /// Steps of the line search among them: no step of Newton's method begins beyond.

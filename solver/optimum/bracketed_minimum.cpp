@@ -7,8 +7,8 @@
 namespace microslip::solver {
 namespace {
 
-/// The minimum of a parabola through three points, relative to the first; infinite beyond `most`, as
-/// where they lie on a line, and where a value is not known.
+/// The minimum of a parabola through three points, relative to the first; infinite beyond `most`,
+/// as where they lie on a line, and where a value is not known.
 double parabola_step(const std::array<double, 3>& at, const std::array<double, 3>& value,
                      double most) {
   constexpr double infinity = std::numeric_limits<double>::infinity();

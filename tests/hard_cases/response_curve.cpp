@@ -312,7 +312,10 @@ TEST(ResponseCurveHard, NearlyRigidContactTakesNoMoreStepsThanStiffContact) {
     // Rows double where rounding shortens the steps; peaks and folds, the same in all, take few of
     // the rest.
     EXPECT_LT(4 * curve.iterations, 9 * stiff.iterations) << ratio;
-    EXPECT_LT(curve.contact_evaluations, 2 * stiff.contact_evaluations) << ratio;
+    // An iteration takes as many evaluations: rounding is not polished.
+    EXPECT_LT(5 * curve.contact_evaluations * stiff.iterations,
+              6 * stiff.contact_evaluations * curve.iterations)
+        << ratio;
     // What the contact gives way is of order 1e-4.
     EXPECT_NEAR(marked(curve, PointMark::peak).at(0).frequency, peak, 1e-3) << ratio;
   }
