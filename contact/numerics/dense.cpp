@@ -2,7 +2,6 @@
 
 #include <complex>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Cholesky>
@@ -11,6 +10,7 @@
 #include <Eigen/QR>
 #include <unsupported/Eigen/MatrixFunctions>
 
+#include "contact/numerics/hessenberg_problem.hpp"
 #include "contact/numerics/lapack.hpp"
 
 namespace microslip::contact {
@@ -23,8 +23,8 @@ constexpr Eigen::Index large = 64;
 
 bool is_large(const Eigen::MatrixXd& A) { return has_lapack && A.rows() >= large; }
 
-// LAPACK's small-bulge sweeps begin at 76 rows and take twice the time of single ones there; at 100
-// rows they take a third more still.
+// LAPACK's small-bulge sweeps begin at 76 rows and take twice the time of Eigen's single ones
+// there; at 100 rows they take a third more still.
 constexpr Eigen::Index large_problem = 128;
 
 bool is_large_problem(const Eigen::MatrixXd& A) { return has_lapack && A.rows() >= large_problem; }
@@ -55,97 +55,6 @@ bool general_problem(Eigen::MatrixXd A, Eigen::VectorXcd& values, Eigen::MatrixX
   values.imag() = imaginary;
   return info == 0;
 }
-
-/// A real matrix reduced to Hessenberg form, its values, and vectors of some of them.
-class HessenbergProblem {
- public:
-  explicit HessenbergProblem(Eigen::MatrixXd A)
-      : n_(static_cast<int>(A.rows())),
-        reduced_(std::move(A)),
-        scale_(n_),
-        tau_(n_),
-        real_(n_),
-        imaginary_(n_) {}
-
-  /// @return false: they do not converge.
-  bool find_values() {
-    int info = 0;
-    dgebal_("S", &n_, reduced_.data(), &n_, &low_, &high_, scale_.data(), &info);
-    const int n_work = 34 * n_;
-    Eigen::VectorXd work(n_work);
-    dgehrd_(&n_, &low_, &high_, reduced_.data(), &n_, tau_.data(), work.data(), &n_work, &info);
-    hessenberg_ = reduced_.triangularView<Eigen::Upper>();
-    hessenberg_.diagonal(-1) = reduced_.diagonal(-1);
-    Eigen::MatrixXd swept = hessenberg_;
-    const int no = 0;
-    const int one = 1;
-    dlahqr_(&no, &no, &n_, &low_, &high_, swept.data(), &n_, real_.data(), imaginary_.data(), &one,
-            &n_, nullptr, &one, &info);
-    return info == 0;
-  }
-
-  [[nodiscard]] Eigen::VectorXcd values() const {
-    Eigen::VectorXcd values(n_);
-    values.real() = real_;
-    values.imag() = imaginary_;
-    return values;
-  }
-
-  /// @param chosen  1: wanted; of a pair its first.   @return false: one does not converge.
-  bool find_vectors(std::vector<int> chosen, Eigen::MatrixXcd& vectors) {
-    const std::vector<int> asked = chosen;  // what is given is changed
-    int n_columns = 0;
-    for (std::size_t i = 0; i < asked.size(); ++i) {
-      const bool of_pair = imaginary_[static_cast<Eigen::Index>(i)] != 0.0;
-      n_columns += asked[i] == 0 ? 0 : (of_pair ? 2 : 1);
-    }
-    vectors = Eigen::MatrixXcd::Zero(n_, n_);
-    if (n_columns == 0) return true;
-    Eigen::MatrixXd columns(n_, n_columns);
-    std::vector<int> failed(static_cast<std::size_t>(n_columns));
-    Eigen::VectorXd work(n_ * (n_ + 2));
-    const int one = 1;
-    int found = 0;
-    int info = 0;
-    Eigen::VectorXd shifted = real_;  // apart where values are close
-    dhsein_("R", "N", "N", chosen.data(), &n_, hessenberg_.data(), &n_, shifted.data(),
-            imaginary_.data(), nullptr, &one, columns.data(), &n_, &n_columns, &found, work.data(),
-            nullptr, failed.data(), &info);
-    if (info != 0 || found != n_columns) return false;
-    const auto n_work = static_cast<int>(work.size());
-    dormhr_("L", "N", &n_, &n_columns, &low_, &high_, reduced_.data(), &n_, tau_.data(),
-            columns.data(), &n_, work.data(), &n_work, &info);
-    dgebak_("S", "R", &n_, &low_, &high_, scale_.data(), &n_columns, columns.data(), &n_, &info);
-    spread(asked, columns, vectors);
-    return true;
-  }
-
- private:
-  /// From real and imaginary columns to the places of their values.
-  void spread(const std::vector<int>& asked, const Eigen::MatrixXd& columns,
-              Eigen::MatrixXcd& vectors) const {
-    Eigen::Index column = 0;
-    for (Eigen::Index i = 0; i < n_; ++i) {
-      if (asked[static_cast<std::size_t>(i)] == 0) continue;
-      vectors.col(i).real() = columns.col(column++);
-      if (imaginary_[i] != 0.0) {
-        vectors.col(i).imag() = columns.col(column++);
-        vectors.col(i + 1) = vectors.col(i).conjugate().normalized();
-      }
-      vectors.col(i).normalize();
-    }
-  }
-
-  int n_;
-  Eigen::MatrixXd reduced_;  ///< H and the reflectors of Q
-  Eigen::MatrixXd hessenberg_;
-  Eigen::VectorXd scale_;
-  Eigen::VectorXd tau_;
-  Eigen::VectorXd real_;
-  Eigen::VectorXd imaginary_;
-  int low_ = 1;
-  int high_ = 1;
-};
 
 /// Columns of pairs are real and imaginary parts.
 Eigen::MatrixXcd complex_vectors(const Eigen::VectorXcd& values, const Eigen::MatrixXd& columns) {
@@ -340,7 +249,7 @@ std::optional<GeneralPairs> general_pairs(const Eigen::MatrixXd& A,
     const std::complex<double> value = pairs.values[i];
     chosen[static_cast<std::size_t>(i)] = value.imag() >= 0.0 && wanted(value) ? 1 : 0;
   }
-  if (!problem.find_vectors(std::move(chosen), pairs.vectors)) return std::nullopt;
+  if (!problem.find_vectors(chosen, pairs.vectors)) return std::nullopt;
   return pairs;
 }
 

@@ -132,8 +132,10 @@ double seconds_of(const std::vector<CurveBudget>& budgets, const std::string& so
   return seconds;
 }
 
-/// Those of the search, where they are chosen: what they lack is a row of its own.
+/// Those of the search, where they are chosen: what they lack is a row of its own. Nobody reads
+/// whether motions are stable.
 SceneDescription with_harmonics_of(SceneDescription scene, const solver::Optimum& optimum) {
+  scene.judges_stability = false;
   if (!scene.settings.harmonics.chosen() || optimum.orders.empty()) return scene;
   scene.settings.harmonics = {.highest = std::ranges::max(optimum.orders),
                               .orders = optimum.orders};

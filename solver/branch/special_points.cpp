@@ -17,7 +17,7 @@ namespace {
 constexpr double rounding_share = 1e-8;
 constexpr int max_cuts =
     90;  // bisection alone needs 44 for a share of 1e-13, and a third are bisections
-// Of sampled forces, whose branch has no kinks that matter; exact ones show theirs.
+// Where the branch is smooth three are enough; at a kink more would not shorten the bracket.
 constexpr int n_cubics = 4;
 // Of the steeper end: a slope that is this small and does not fall any more is rounding.
 constexpr double level_share = 1e-8;
@@ -322,7 +322,8 @@ class Segment {
   }
 
   /// By cubics where the branch is smooth, which leave little to do; then regula falsi (Illinois)
-  /// with a bisection after every two steps, so that a jump is found as well.
+  /// with a bisection after every two steps, so that a jump is found as well. Ends where the slope
+  /// is rounding, or the bracket.
   [[nodiscard]] SpecialPoint locate(Node low, Node high) {
     const bool rises = low.value.slope > 0.0;
     double low_weight = low.value.slope;

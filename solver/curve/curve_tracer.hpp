@@ -53,8 +53,8 @@ class CurveTracer {
   [[nodiscard]] StabilityReport stability_at(const NewtonResult& at);
   [[nodiscard]] StabilityReport judged(const NewtonResult& at, PointMark mark);
   [[nodiscard]] ResponsePoint certified(const NewtonResult& at, PointMark mark);
-  /// What keeps it from being a row; empty: nothing.
   [[nodiscard]] bool gains_from_closer(const NewtonResult& at, const ResponsePoint& point) const;
+  /// What keeps it from being a row; empty: nothing.
   [[nodiscard]] std::string objection_to(const ResponsePoint& point);
   /// Where its proof fails the solution is solved closer, and left out if that does not help.
   /// False: the observer asked to stop, or too many were left out.
