@@ -52,8 +52,10 @@ std::string CurveTracer::objection_to(const ResponsePoint& point) {
 
 /// Steps leave residuals next to rounding; what little work is done may be next to that.
 bool CurveTracer::gains_from_closer(const NewtonResult& at, const ResponsePoint& point) const {
+  constexpr double next_to = 10.0;  // nearer to rounding, solving again gains no digit
   return options_.corrector == ContinuationOptions::Corrector::newton &&
-         point.energy_imbalance > customary_imbalance && at.residual > rounding_of_residual;
+         point.energy_imbalance > customary_imbalance &&
+         at.residual > next_to * rounding_of_residual;
 }
 
 bool CurveTracer::add(const NewtonResult& at, PointMark mark, Held held) {

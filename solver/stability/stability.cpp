@@ -22,7 +22,7 @@ constexpr double growth_tolerance = 1e-10;
 // Slow flow holds for what is slow against the cycle. Modes far from resonance turn at |ω_n ± ω| in
 // it, and the mean at ω_n: a hysteretic force answers those in another way, so they are not judged.
 constexpr double slow_share = 0.25;  // of ω
-// Of Hill's problem: some 1.3 ms for its eigenvalues, 2 ms with their vectors.
+// Of Hill's problem: some 1 ms for its eigenvalues, twice that with all their vectors.
 constexpr Eigen::Index most_states = 80;
 // Of ω, natural frequencies of modes that tell the width of a resonance: others answer like
 // springs.
@@ -340,6 +340,25 @@ bool only_copies_grow(const HillProblem& problem) {
   return true;
 }
 
+/// What without_exponents() leaves open, by Hill's exponents.
+StabilityReport by_exponents(const HarmonicBalance& balance, const Harmonics& q, double frequency,
+                             StabilityReport slow) {
+  if (balance.set().has_mean() && !balance.has_mean()) return slow;
+  StabilityReport report = std::move(slow);
+  report.stability = Stability::not_assessed;
+  report.basis = StabilityBasis::hill;
+  const HillProblem problem = hill_problem(balance, q, frequency, *report.reduced);
+  if (!problem.matrix.allFinite()) return report;
+  // Where nothing grows but copies, nothing is to be sorted: less than half the cost.
+  const auto growth = only_copies_grow(problem) ? HillGrowth{} : growth_of(problem);
+  if (growth && growth->real > growth_tolerance) {
+    report.stability = Stability::unstable;
+  } else if (growth && growth->largest <= growth_tolerance) {
+    report.stability = Stability::stable;
+  }
+  return report;
+}
+
 /// Whether the period map may cost what it does.
 bool is_in_reach(const Scene& scene, PeriodMapEffort effort) {
   if (!scene.transient) return false;
@@ -404,20 +423,7 @@ std::optional<StabilityReport> damped_linear_stability(const HarmonicBalance& ba
 StabilityReport hill_stability(const HarmonicBalance& balance, const Harmonics& q, double frequency,
                                StabilityReport slow) {
   if (const auto settled = without_exponents(balance, q, slow)) return *settled;
-  if (balance.set().has_mean() && !balance.has_mean()) return slow;
-  StabilityReport report = std::move(slow);
-  report.stability = Stability::not_assessed;
-  report.basis = StabilityBasis::hill;
-  const HillProblem problem = hill_problem(balance, q, frequency, *report.reduced);
-  if (!problem.matrix.allFinite()) return report;
-  // Where nothing grows but copies, nothing is to be sorted: less than half the cost.
-  const auto growth = only_copies_grow(problem) ? HillGrowth{} : growth_of(problem);
-  if (growth && growth->real > growth_tolerance) {
-    report.stability = Stability::unstable;
-  } else if (growth && growth->largest <= growth_tolerance) {
-    report.stability = Stability::stable;
-  }
-  return report;
+  return by_exponents(balance, q, frequency, std::move(slow));
 }
 
 std::optional<HillGrowth> hill_growth(const HarmonicBalance& balance, const Harmonics& q,
@@ -445,12 +451,12 @@ StabilityReport judged_stability(const HarmonicBalance& balance, const Harmonics
   if (auto settled = without_exponents(balance, q, slow)) return std::move(*settled);
   if (!is_in_reach(balance.scene(), PeriodMapEffort::every_point)) {
     return stability_in_time(balance, q, frequency,
-                             hill_stability(balance, q, frequency, std::move(slow)), effort);
+                             by_exponents(balance, q, frequency, std::move(slow)), effort);
   }
   const auto map = verdict_in_time(balance.scene(), q, frequency, effort);
   StabilityReport report = slow;
   if (!map || map->has_real_growth) {
-    report = hill_stability(balance, q, frequency, std::move(slow));
+    report = by_exponents(balance, q, frequency, std::move(slow));
     if (!map || report.stability == Stability::unstable) return report;
   }
   report.basis = StabilityBasis::period_map;
