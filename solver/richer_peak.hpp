@@ -38,6 +38,11 @@ struct RicherPeak {
                                                     const ContinuationOptions& range,
                                                     const ResponseCurve& curve, int highest);
 
+/// The options with the harmonics that points of the curve have: they may have been chosen.
+[[nodiscard]] ContinuationOptions with_those_of(const Scene& scene,
+                                                const ContinuationOptions& range,
+                                                const ResponseCurve& curve);
+
 /// The same blade modelled otherwise: finer cells, other shapes, another mesh, friction along r.
 struct OtherModel {
   const Scene& scene;

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "pipelines/response/highest_peak.hpp"
+#include "pipelines/response/peak_about.hpp"
 #include "pipelines/response/resonating_shapes.hpp"
 #include "pipelines/response/sampled_curve.hpp"
 #include "pipelines/response/solver_scenes.hpp"
@@ -75,30 +76,55 @@ double told_by_step(const SceneDescription& scene, const RicherModel& richer) {
   return scene.accuracy.tolerance > 0.0 ? of_tolerance * scene.accuracy.tolerance : without;
 }
 
+struct PeakThere {
+  GoalEffects goals;  ///< amplitude [m], frequency [rad/s], energy [J]
+  ErrorKind kind = ErrorKind::solved;
+};
+
+/// Newton's method from the peak of a curve does not always lead to that on another mesh, whose
+/// resonances lie elsewhere: its own curve is traced there, which takes as long as the curve itself.
+bool is_worth_a_trace(const SceneDescription& scene, const RicherModel& richer) {
+  const bool is_one_frequency =
+      scene.response->frequency_begin_hz == scene.response->frequency_end_hz;
+  return richer.source == "mesh" && scene.accuracy.tolerance > 0.0 && !is_one_frequency;
+}
+
+/// The highest peak of the curve in another model.
+std::optional<PeakThere> peak_there(const ReducedModel& own, const SceneDescription& scene,
+                                    const RicherModel& richer, const solver::ResponseCurve& curve,
+                                    double load) {
+  ReducedModel refined = richer.model;
+  refined.effects.located = refined.effects.located || own.effects.located;
+  const solver::ContinuationOptions options = options_of_both(scene, own, refined);
+  const solver::Scene here = solver_scene(own, load);
+  const solver::Scene there = solver_scene(refined, load);
+  const double at = highest_peak(curve)->frequency;
+  const double factor = frequency_factor(own, richer.model, at, richer.embedding);
+  if (const auto peak = solver::peak_elsewhere(
+          here, options, curve, {there, richer.embedding, factor, told_by_step(scene, richer)})) {
+    return PeakThere{{peak->other_amplitude, peak->other_frequency, peak->other_dissipated_energy},
+                     peak->is_solved ? ErrorKind::solved : ErrorKind::estimated};
+  }
+  if (!is_worth_a_trace(scene, richer)) return std::nullopt;
+  const auto traced =
+      peak_about(refined, load, solver::with_those_of(here, options, curve), factor * at);
+  if (!traced) return std::nullopt;
+  return PeakThere{{traced->amplitude, traced->frequency, traced->energy.friction}};
+}
+
 void add_model(CurveBudget& budget, const ReducedModel& model, const SceneDescription& scene,
                const RicherModel& richer, const CurveResult& result, double load) {
   const auto begin = std::chrono::steady_clock::now();
-  const ReducedModel solved = model_of(model, result.curve);
-  ReducedModel refined = richer.model;
-  refined.effects.located = refined.effects.located || solved.effects.located;
-  const solver::ContinuationOptions options = options_of_both(scene, solved, refined);
-  const solver::Scene own = solver_scene(solved, load);
-  const solver::Scene other = solver_scene(refined, load);
-  const double factor = frequency_factor(model, richer.model, highest_peak(result.curve)->frequency,
-                                         richer.embedding);
-  const auto peak = solver::peak_elsewhere(
-      own, options, result.curve, {other, richer.embedding, factor, told_by_step(scene, richer)});
-  if (!peak || !(peak->amplitude > 0.0)) {
+  const auto peak = peak_there(model_of(model, result.curve), scene, richer, result.curve, load);
+  if (!peak || !(peak->goals.amplitude > 0.0)) {
     budget.unknown.push_back(richer.source);
     return;
   }
-  const GoalEffects change =
-      changes(budget, *highest_peak(result.curve),
-              {peak->other_amplitude, peak->other_frequency, peak->other_dissipated_energy});
+  const GoalEffects change = changes(budget, *highest_peak(result.curve), peak->goals);
   add_rows(budget, result.name, richer.source,
            {richer.share * change.amplitude, richer.share * change.frequency,
             richer.share * change.energy},
-           peak->is_solved ? ErrorKind::solved : ErrorKind::estimated, seconds_since(begin));
+           peak->kind, seconds_since(begin));
 }
 
 /// What located events move the peaks and folds of a curve by: the largest of all. No row where one

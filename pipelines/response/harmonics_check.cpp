@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "pipelines/response/highest_peak.hpp"
+#include "pipelines/response/peak_about.hpp"
 #include "pipelines/response/sampled_curve.hpp"
 #include "pipelines/response/solver_scenes.hpp"
 #include "pipelines/system/deadline.hpp"
@@ -23,25 +24,15 @@ int harmonics_to_check(const ReducedModel& model, const SceneDescription& scene)
 
 namespace {
 
-/// The highest peak of a curve traced with more harmonics about the one that the curve has: where
-/// that is too far for Newton's method.
-void trace_about_peak(const ReducedModel& model, double load, solver::ContinuationOptions options,
-                      CurveResult& result) {
-  constexpr double beside =
-      0.015;  // of the frequency: some resonance widths of a lightly damped blade
+/// Where the peak with more harmonics is too far for Newton's method.
+void trace_about_peak(const ReducedModel& model, double load,
+                      const solver::ContinuationOptions& options, CurveResult& result) {
   solver::RicherPeak& richer = *result.richer;
   const solver::ResponsePoint own = *highest_peak(result.curve);
-  for (double* end : {&options.frequency_begin, &options.frequency_end}) {
-    *end = std::clamp(*end, (1.0 - beside) * own.frequency, (1.0 + beside) * own.frequency);
-  }
   const auto begin = std::chrono::steady_clock::now();
-  const solver::ResponseCurve curve =
-      solver::trace_response(balanced_scene(model, load, options), options,
-                             [&options](const auto&) { return !options.stop(); });
+  const auto peak = peak_about(model, load, options, own.frequency);
   richer.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  const solver::ResponsePoint* peak = peak_above_all(curve);
-  if (!curve.complete || peak == nullptr) return;
-  if (peak->amplitude < solver::another_peak * own.amplitude) return;
+  if (!peak || peak->amplitude < solver::another_peak * own.amplitude) return;
   richer.frequency = peak->frequency;
   richer.amplitude = peak->amplitude;
   richer.dissipated_energy = peak->energy.friction;
@@ -60,8 +51,6 @@ void check_harmonics(ReducedModel model, const SceneDescription& scene, double l
   model.effects.n_harmonics = highest;
   model = model_of(std::move(model), curve);
   solver::ContinuationOptions options = continuation_options(scene, model);
-  options.search_starts = 0;
-  options.judge_stability = false;
   options.stop = [&stop, others = options.stop] { return stop() || others(); };
   result.richer = solver::richer_peak(solver_scene(model, load), options, curve, highest);
   const bool missed = result.richer && !result.richer->change;

@@ -11,6 +11,7 @@
 #include "solver/balance/output_amplitude.hpp"
 #include "solver/balance/period_energy.hpp"
 #include "solver/enrichment/carried_peak.hpp"
+#include "solver/enrichment/curve_harmonics.hpp"
 #include "solver/enrichment/enrichment.hpp"
 #include "solver/enrichment/level_point.hpp"
 #include "solver/peak/high_points.hpp"
@@ -153,6 +154,11 @@ std::optional<RicherPeak> richer_peak(const Scene& scene, const ContinuationOpti
   result.dissipated_energy = energy_of(richer, *found);
   result.change = (found->amplitude - top->point.amplitude) / found->amplitude;
   return result;
+}
+
+ContinuationOptions with_those_of(const Scene& scene, const ContinuationOptions& range,
+                                  const ResponseCurve& curve) {
+  return with_harmonics(range, set_of(scene, range, curve));
 }
 
 std::optional<PeakOfBoth> peak_elsewhere(const Scene& scene, const ContinuationOptions& range,
