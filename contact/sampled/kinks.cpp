@@ -286,12 +286,40 @@ void find_kinks(const SmoothPoint& point, const std::vector<Run>& runs, const Li
   }
 }
 
+void find_load_kinks(const double* closeness, std::size_t n, Kinks& kinks) {
+  kinks.all.clear();
+  kinks.first.clear();
+  for (std::size_t now = 0, before = n - 1; now < n; before = now++) {
+    const bool closes = at(closeness, now) > 0.0;
+    if (closes == (at(closeness, before) > 0.0)) continue;
+    const StepSpline r(around_step(closeness, now, n));
+    const double rise = at(closeness, now) - at(closeness, before);
+    Kink& kink = kinks.all.emplace_back();
+    kink.kind = closes ? Kink::Kind::closes : Kink::Kind::opens;
+    kink.now = now;
+    kink.share = closes ? r.rise_through_zero(rise) : r.negated().rise_through_zero(-rise);
+    kink.load = slopes_at(r, kink.share, closes ? 1.0 : -1.0);
+  }
+}
+
+void add_load_moments(const Kink& kink, double normal_stiffness, const Instants& instants,
+                      std::vector<double>& moments) {
+  const double sign = kink.kind == Kink::Kind::closes ? 1.0 : -1.0;
+  const double x = kink.share;
+  const double weight = sign * normal_stiffness * (0.5 - x);
+  const double* begin = instants.moment_basis(kink.now > 0 ? kink.now - 1 : instants.size() - 1);
+  const double* end = instants.moment_basis(kink.now);
+  for (std::size_t m = 0; m < moments.size(); ++m) {
+    moments[m] += weight * ((1.0 - x) * begin[m] + x * end[m]);
+  }
+}
+
 void mend(const Kinks& kinks, std::size_t n, double* friction, double* normal) {
   for (const Kink& kink : kinks.all) {
     const KinkMoments moments = kink_moments(kink.share);
     const LagrangeBasis basis = lagrange(kink.share);
     const auto around = instants_around(kink.now, n);
-    take_off(kink.friction, moments, basis, around, friction);
+    if (kink.friction != Slopes{}) take_off(kink.friction, moments, basis, around, friction);
     if (kink.load[0] != 0.0) take_off(kink.load, moments, basis, around, normal);
   }
 }

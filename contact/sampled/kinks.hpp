@@ -24,6 +24,7 @@
 #include <span>
 #include <vector>
 
+#include "contact/sampled/instants.hpp"
 #include "contact/sampled/runs.hpp"
 #include "contact/sampled/step_spline.hpp"
 
@@ -96,6 +97,15 @@ using KinkMoments = std::array<std::array<double, 3>, 4>;
 /// @param n  instants.   @param kinks  written whole.
 void find_kinks(const SmoothPoint& point, const std::vector<Run>& runs, const LineColumns& columns,
                 std::size_t n, Kinks& kinks);
+
+/// Those of the load alone. @param closeness  column of a block: the load where it is positive.
+void find_load_kinks(const double* closeness, std::size_t n, Kinks& kinks);
+
+/// What that does to the moments of dn/dv of a point that opens or closes: for the instants that the
+/// sums count too much or too little. The antisymmetric part of the derivative, of second order, has
+/// no place there. @param moments  those of Instants, added to.
+void add_load_moments(const Kink& kink, double normal_stiffness, const Instants& instants,
+                      std::vector<double>& moments);
 
 /// Takes (1) off the samples. @param friction, normal  columns of a block, n instants.
 void mend(const Kinks& kinks, std::size_t n, double* friction, double* normal);

@@ -91,8 +91,15 @@ SmoothPoint LineBlock::smooth_point(std::size_t place) const {
 
 void LineBlock::mend_kinks(std::size_t n_points) {
   for (std::size_t p = 0; p < n_points; ++p) {
-    find_kinks(smooth_point(p), runs_[p], columns(p), instants_->size(), kinks_[p]);
-    mend(kinks_[p], instants_->size(), friction_.data() + p, normal_.data() + p);
+    const std::size_t n = instants_->size();
+    if (simple_) {
+      find_kinks(smooth_point(p), runs_[p], columns(p), n, kinks_[p]);
+    } else if ((*surfaces_)[static_cast<std::size_t>(points_[p])].is_smooth()) {
+      find_load_kinks(closeness_.data() + p, n, kinks_[p]);
+    } else {
+      kinks_[p].all.clear();
+    }
+    mend(kinks_[p], n, friction_.data() + p, normal_.data() + p);
   }
 }
 
@@ -161,7 +168,7 @@ void LineBlock::evaluate(const std::vector<SurfaceLaw>& surfaces, const PatchMot
   for (std::size_t p = 0; p < points.size(); ++p) {
     find_runs(state_.data() + p, n, block_size, runs_[p]);
   }
-  if (simple_) mend_kinks(points.size());
+  mend_kinks(points.size());
   kernels.analyze(n, of_force.n_rows(), of_force.n_rows(), of_force.basis(), friction_.data(),
                   friction_sums_.data());
   kernels.analyze(n, of_force.n_rows(), of_force.n_rows(), of_force.basis(), normal_.data(),
@@ -184,6 +191,7 @@ const LineDerivatives& LineBlock::derivatives(std::size_t place) {
   } else {
     derivatives_.any_surface(slopes_[place], closeness_by_approach_[place], frequency_,
                              runs_[place], columns(place));
+    derivatives_.mend_load(kinks_[place], normal_stiffness_[place]);
   }
   return derivatives_;
 }

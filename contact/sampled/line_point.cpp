@@ -315,23 +315,19 @@ void LineDerivatives::add_slip(const Kink& kink, const LineColumns& columns) {
   }
 }
 
-/// Contact opens or closes. Of the load moments for the instants that the sums count too much or
-/// too little; the antisymmetric part of the derivative, of second order, has no place there.
+/// Contact opens or closes.
 void LineDerivatives::add_contact(const Kink& kink) {
   const double k_v = point_.normal_stiffness;
-  const double sign = kink.kind == Kink::Kind::closes ? 1.0 : -1.0;
-  const double x = kink.share;
-  const double weight = sign * k_v * (0.5 - x);
-  add(normal_, weight * (1.0 - x), instants_->moment_basis(before(kink.now)));
-  add(normal_, weight * x, instants_->moment_basis(kink.now));
+  add_load_moments(kink, k_v, *instants_, normal_);
   if (point_.tangential_stiffness == 0.0) return;
   if (kink.side != 0.0) {
+    const double sign = kink.kind == Kink::Kind::closes ? 1.0 : -1.0;
     add_kink(kink, 0.0, sign * kink.side * point_.friction_coefficient * k_v, true);
     return;
   }
   // It sticks from where r vanishes: dx = −dr/r'.
   add_kink(kink, point_.tangential_stiffness, 0.0, false);
-  sum_around(kink.now, StepSpline::shares(x));
+  sum_around(kink.now, StepSpline::shares(kink.share));
   at_kink(kink, -ratio_of(kink.friction[0], kink.load[0]));
   add_outer(moved_, b_, 0.0, k_v);
 }
@@ -388,6 +384,10 @@ void LineDerivatives::any_surface(const std::vector<InstantSlopes>& slopes,
     }
   }
   sum_up(frequency);
+}
+
+void LineDerivatives::mend_load(const Kinks& kinks, double normal_stiffness) {
+  for (const Kink& kink : kinks.all) add_load_moments(kink, normal_stiffness, *instants_, normal_);
 }
 
 }  // namespace microslip::contact::sampled

@@ -47,6 +47,8 @@ class LineDerivatives {
   /// @param slopes  n.   @param closeness_by_approach  dr/dv.
   void any_surface(const std::vector<InstantSlopes>& slopes, double closeness_by_approach,
                    double frequency, const std::vector<Run>& runs, const LineColumns& columns);
+  /// After that, what mend() takes off. @param kinks  of the load of a smooth surface.
+  void mend_load(const Kinks& kinks, double normal_stiffness);
 
   /// ∂f̂_k/∂û_l and ∂f̂_k/∂v̂_l in split order, without the norm of row k [N/m³];
   /// rows k lie row_stride() apart, with at least eight readable numbers behind the last.

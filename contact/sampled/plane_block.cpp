@@ -114,6 +114,17 @@ void PlaneBlock::load_smooth() {
   }
 }
 
+/// A step in which the contact opens or closes errs by more than others where the load is all that
+/// drives: saw teeth along the curve, each as wide as the event takes from instant to instant.
+void PlaneBlock::mend_load() {
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    load_kinks_[p].all.clear();
+    if (!(*surfaces_)[static_cast<std::size_t>(point(p))].is_smooth()) continue;
+    find_load_kinks(closeness_.data() + p, instants_->size(), load_kinks_[p]);
+    mend(load_kinks_[p], instants_->size(), force_p_.data() + p, normal_.data() + p);
+  }
+}
+
 void PlaneBlock::smooth_slopes(std::size_t p) {
   const double k_p = stiffness_p_[p] > 0.0 ? stiffness_p_[p] : stiffness_r_[p];
   const double k_r = stiffness_r_[p] > 0.0 ? stiffness_r_[p] : stiffness_p_[p];
@@ -438,6 +449,7 @@ void PlaneBlock::evaluate(const std::vector<SurfaceLaw>& surfaces, const PatchMo
     force_p_[at] = limit_[at] * pull_p_[at];
     force_r_[at] = limit_[at] * pull_r_[at];
   }
+  mend_load();
   const std::array<const double*, 3> signal{force_p_.data(), normal_.data(), force_r_.data()};
   for (std::size_t s = 0; s < 3; ++s) {
     sums_[s].resize(of_force.n_rows() * block_size);
@@ -452,6 +464,7 @@ const PlaneDerivatives& PlaneBlock::derivatives(std::size_t place) {
   } else {
     derivatives_[place].steady(point_of(place), runs_[place]);
   }
+  derivatives_[place].mend_load(load_kinks_[place], normal_stiffness_[place]);
   return derivatives_[place];
 }
 

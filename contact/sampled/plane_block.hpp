@@ -23,6 +23,7 @@
 #include "contact/force/sleeping_set.hpp"
 #include "contact/lanes/plane_kernels.hpp"
 #include "contact/sampled/instants.hpp"
+#include "contact/sampled/kinks.hpp"
 #include "contact/sampled/plane_corner.hpp"
 #include "contact/sampled/plane_point.hpp"
 #include "contact/surface/surface_law.hpp"
@@ -58,6 +59,7 @@ class PlaneBlock {
   void load_motion(const PatchMotion& motion);
   void load_constants();
   void load_smooth();
+  void mend_load();
   void ask_surfaces();
   void smooth_slopes(std::size_t place);
   void begin_search();
@@ -113,6 +115,7 @@ class PlaneBlock {
   std::array<Search, block_size> search_;
   std::array<std::vector<PlaneSlopes>, block_size> slopes_;
   std::array<std::vector<Run>, block_size> runs_;
+  std::array<Kinks, block_size> load_kinks_;  // of smooth surfaces
   std::array<PlaneDerivatives, block_size> derivatives_;
 };
 

@@ -491,4 +491,8 @@ void PlaneDerivatives::steady(const Point& point, const std::vector<Run>& runs) 
   collect();
 }
 
+void PlaneDerivatives::mend_load(const Kinks& kinks, double normal_stiffness) {
+  for (const Kink& kink : kinks.all) add_load_moments(kink, normal_stiffness, *instants_, normal_);
+}
+
 }  // namespace microslip::contact::sampled

@@ -21,6 +21,7 @@
 #include "contact/lanes/plane_kernels.hpp"
 #include "contact/lanes/product_kernels.hpp"
 #include "contact/sampled/instants.hpp"
+#include "contact/sampled/kinks.hpp"
 #include "contact/sampled/plane_corner.hpp"
 #include "contact/sampled/runs.hpp"
 
@@ -70,6 +71,8 @@ class PlaneDerivatives {
   void after_history(const Point& point, const PlaneStart& start, const std::vector<Run>& runs);
   /// Of a steady cycle with slip or separation.
   void steady(const Point& point, const std::vector<Run>& runs);
+  /// After either, what mend() takes off. @param kinks  of the load of a smooth surface.
+  void mend_load(const Kinks& kinks, double normal_stiffness);
 
   /// ∂f̂_k/∂(û, v̂, ŵ) in split order, without the norm of row k [N/m³].
   /// @param direction  0 p, 1 r.

@@ -87,6 +87,14 @@ PeakHarmonicsChoice::Estimate PeakHarmonicsChoice::estimate(const HarmonicSet& s
   return result;
 }
 
+double PeakHarmonicsChoice::Estimate::beyond(const std::vector<int>& orders) const {
+  double rest = 0.0;
+  for (const RicherShare& share : shares) {
+    if (std::ranges::count(orders, share.order) == 0) rest += std::abs(share.amplitude);
+  }
+  return rest;
+}
+
 std::vector<int> PeakHarmonicsChoice::wanted(const Estimate& estimate) const {
   std::vector<int> orders = estimate.resonant;
   double rest = estimate.sum;
@@ -142,13 +150,8 @@ PeakHarmonics PeakHarmonicsChoice::choose(const HarmonicSet& set, const LocalPea
   if (result.set != set) result.peak = solved(set, peak, result.set);
   const PeakHarmonics fewest = result;
   settle(result);
-  if (result.peak) {
-    HarmonicBalance balance(scene_, result.set);
-    const PeriodEnergy energy =
-        period_energy(balance, result.peak->point.x, result.peak->point.parameter);
-    ++work_.contact_evaluations;
-    result.richest = {result.peak->point.parameter, result.peak->amplitude, result.left_out,
-                      energy.friction};
+  if (result.peak && !(result.richest.amplitude > 0.0)) {
+    result.richest = told(result.set, *result.peak, result.left_out);
   }
   if (!result.settled) return result;
   const PeakHarmonics rich = result;
@@ -160,6 +163,14 @@ PeakHarmonics PeakHarmonicsChoice::choose(const HarmonicSet& set, const LocalPea
   prune(result, more);
   try_first_ones(result, rich, more);
   return result;
+}
+
+SettledPeak PeakHarmonicsChoice::told(const HarmonicSet& set, const LocalPeak& peak,
+                                      double left_out) {
+  HarmonicBalance balance(scene_, set);
+  ++work_.contact_evaluations;
+  const PeriodEnergy energy = period_energy(balance, peak.point.x, peak.point.parameter);
+  return {peak.point.parameter, peak.amplitude, left_out, energy.friction};
 }
 
 /// Adds harmonics until what is left out does little and a block of it, solved for, confirms this.
@@ -184,7 +195,10 @@ void PeakHarmonicsChoice::settle(PeakHarmonics& result) {
     if (next && small) {
       result.confirmed = std::abs(next->amplitude - result.peak->amplitude) / next->amplitude;
       result.settled = same(*result.peak, *next, tolerance);
-      if (result.settled) return;
+      if (result.settled) {
+        result.richest = told(larger, *next, now.beyond(orders));
+        return;
+      }
     }
     result.set = std::move(larger);
     result.peak = std::move(next);

@@ -32,7 +32,7 @@ struct PeakHarmonics {
   std::optional<LocalPeak> peak;
   double left_out =
       0.0;  ///< |δA| / A of pruned harmonics, solved, and Σ |δA| / A of the others, estimated
-  SettledPeak richest{};   ///< before pruning
+  SettledPeak richest{};   ///< before pruning, with the block that confirms it
   double confirmed = 0.0;  ///< |δA| / A by the block that was solved for last
   bool settled = false;  ///< false: the peak is not found, or the highest order allowed is reached
 };
@@ -59,6 +59,9 @@ class PeakHarmonicsChoice {
     std::vector<RicherShare> shares;  ///< of orders left out, the largest first
     double sum = 0.0;                 ///< of their sizes
     std::vector<int> resonant;
+
+    /// Of the sum, without some orders.
+    [[nodiscard]] double beyond(const std::vector<int>& orders) const;
   };
 
   [[nodiscard]] Estimate estimate(const HarmonicSet& set, const LocalPeak& peak);
@@ -69,6 +72,7 @@ class PeakHarmonicsChoice {
                                                 const HarmonicSet& to);
   [[nodiscard]] std::optional<LocalPeak> solved_one_by_one(HarmonicSet set, LocalPeak peak,
                                                            std::vector<int> orders);
+  [[nodiscard]] SettledPeak told(const HarmonicSet& set, const LocalPeak& peak, double left_out);
   void settle(PeakHarmonics& result);
   void prune(PeakHarmonics& result, const HarmonicSet& least);
   void try_first_ones(PeakHarmonics& result, const PeakHarmonics& rich, const HarmonicSet& least);

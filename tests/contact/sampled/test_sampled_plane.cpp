@@ -138,6 +138,28 @@ TEST_P(PlaneSurfaces, ConvergeToThePlaneEventsInSecondOrder) {
   EXPECT_GT(rms[0] / rms[2], 64.0);
 }
 
+// What friction does leaves the load alone: it is mended where contact opens and closes as along a
+// line, without which a patch that parts, little damped, has a saw tooth for every such instant.
+TEST(SampledPlane, TheLoadOfSmoothSurfacesIsThatAlongALine) {
+  constexpr int n = 128;
+  int n_parting = 0;
+  for (const PlanarCase& c : cases_of(40)) {
+    const auto load = [&](const SurfaceLaw& surface, int n_signals) -> Eigen::VectorXd {
+      return tests::evaluate(one_point(surface, n_signals, n), modal(c.motion, n_signals),
+                             frequency, {})
+          .force.rows()
+          .col(1);
+    };
+    const Eigen::VectorXd plane = load(smooth(c), 3);
+    const double scale = planar_scale(c);
+    ASSERT_LE((plane - load(smooth(c), 2)).norm(), 1e-13 * scale);
+    const Eigen::VectorXd exact = exact_force(smooth(c), c).rows().col(1);
+    EXPECT_LE((plane - exact).norm(), 3e-5 * scale);
+    if ((exact - load(smooth(c), 3)).norm() > 1e-9 * scale) ++n_parting;
+  }
+  EXPECT_GT(n_parting, 8);
+}
+
 // Central differences of the sampled force itself: exact but for rounding, what is left of the
 // search for the steady cycle, and instants that change their state within the step, which
 // differences at h and h/2 show.
@@ -146,6 +168,8 @@ TEST_P(PlaneSurfaces, JacobianIsThatOfDifferences) {
   int n_drawn = 0;
   double worst = 0.0;
   int n_unsettled = 0;
+  // Of a load that is mended complete but for what is of second order: kinks.hpp.
+  const double allowed = GetParam().make(cases_of(1)[0]).is_smooth() ? 5e-4 : 1e-6;
   for (const PlanarCase& c : cases_of(40)) {
     PatchForce force = one_point(GetParam().make(c), 3, 128);
     const Harmonics q = modal(c.motion, 3);
@@ -159,7 +183,7 @@ TEST_P(PlaneSurfaces, JacobianIsThatOfDifferences) {
       if ((central(1.0) - fine).cwiseAbs().maxCoeff() > 1e-7 * scale * unit) return;
       const double e = (derivative - fine).cwiseAbs().maxCoeff() / (scale * unit);
       worst = std::max(worst, e);
-      EXPECT_LE(e, 1e-6);
+      EXPECT_LE(e, allowed);
       ++n_checked;
     };
     for (Eigen::Index k = 0; k < now.jacobian.cols(); ++k) {
