@@ -302,10 +302,11 @@ double integrations_with(const SceneDescription& scene, const CurveEffects& effe
   return (n > 1.0 ? n + 1.0 : n) * once;
 }
 
-/// Where "auto" looks: no resonance near by is known to be too far.
-int starts_at_one_frequency(const SceneDescription& scene) {
-  if (setting_of(scene, "coexistence") == "off") return 0;
-  return default_starts(scene);
+/// Of all curves. Where it is not known yet single frequencies are searched, no curves are.
+double searched_share(const SceneDescription& scene, const CurveEffects& effects) {
+  if (asked_starts(scene) > 0) return 1.0;
+  if (setting_of(scene, "coexistence") == "off" || scene.response->search_starts) return 0.0;
+  return effects.searched_share.value_or(is_single_frequency(scene) ? 1.0 : 0.0);
 }
 
 /// Of harmonics that are given, at the best value and beside it.
@@ -380,10 +381,8 @@ ResponseSeconds response_seconds(const SceneDescription& scene, const CurveEffec
         (std::max(0.5 * evaluations * evaluation,
                   evaluations * evaluation + (one ? 1.0 : points_of_a_curve) * stability) +
          check_seconds(scene, effects, size));
-    if (one ? effects.is_searched : asked_starts(scene) > 0) {
-      const int n_starts = one ? starts_at_one_frequency(scene) : asked_starts(scene);
-      seconds.curves += search_seconds(scene, effects, n_starts);
-    }
+    seconds.curves +=
+        searched_share(scene, effects) * search_seconds(scene, effects, likely_starts(scene));
     if (scene.accuracy.error_budget) {
       const bool meshed = !scene.contacts.empty();
       const double in_plane = effects.second_direction ? 2.0 : 1.0;

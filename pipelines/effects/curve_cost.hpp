@@ -20,8 +20,9 @@ struct CurveEffects {
   bool residual = true;  ///< the modes have those shapes for omitted ones that the scene has
   bool stability = true;
   int linear_curves = 0;  ///< that cannot slip, open or close, as far as is known
-  /// At a single frequency other solutions are searched, as far as is known.
-  bool is_searched = true;
+  /// Of the curves, those beside which other solutions are searched without having been asked for;
+  /// empty: not known yet.
+  std::optional<double> searched_share{};
 };
 
 /// Its contact has displacements along r.

@@ -30,10 +30,11 @@ using enum Simulated;
 
 constexpr double percent = 100.0;
 constexpr int starts_of_a_search = 12;
+// Of one that nobody has asked for, per frequency of a curve: two found whatever twelve did.
+constexpr int starts_beside_a_curve = 4;
 constexpr double bearable_search = 60.0;  // [s]: what a scene may wait for without having asked
-constexpr const char* in_reach =          // of `coexistence`
-    "a resonance near by closes a gap, opens the contact or overcomes friction that falls with "
-    "speed";
+constexpr const char* in_reach =          // of `coexistence`, after which resonance
+    "closes a gap, opens the contact or overcomes friction that falls with speed";
 constexpr const char* limits_alone = "only the limits are asked for";
 constexpr const char* later = "told when the modes are known, by `run`";
 
@@ -372,7 +373,9 @@ EffectDecision wear(const EffectFacts& facts) {
 EffectDecision coexistence(const EffectFacts& facts) {
   const SceneDescription& scene = facts.scene;
   EffectDecision decision;
-  if (facts.reach) decision.indicator = facts.reach->nearby;
+  const bool one = is_single_frequency(scene);
+  if (facts.reach) decision.indicator = one ? facts.reach->nearby : facts.reach->outside;
+  const char* resonance = one ? "a resonance near by" : "a resonance outside the range";
   const auto decided = [&](Simulated simulated, std::string reason) {
     decision.simulated = simulated;
     decision.reason = std::move(reason);
@@ -384,31 +387,22 @@ EffectDecision coexistence(const EffectFacts& facts) {
   if (facts.setting("coexistence") == "off") return decided(no, "effects.coexistence = \"off\"");
   if (scene.response->search_starts == 0) return decided(no, "response.search_starts = 0");
   if (asked_starts(scene) > 0) {
-    return decided(yes,
-                   fmt::format("{} starts per frequency look for them", default_starts(scene)));
+    return decided(yes, fmt::format("{} starts per frequency look for them", asked_starts(scene)));
   }
   if (facts.model == nullptr) return decided(undecided, later);
   if (!facts.reach) return decided(no, limits_alone);
-  if (facts.reach->nearby <= effect_row("coexistence").threshold) {
-    return decided(no,
-                   "no resonance near by closes a gap, opens a contact or overcomes friction that "
-                   "falls with speed in the linear limits");
+  if (*decision.indicator <= effect_row("coexistence").threshold) {
+    return decided(no, fmt::format("in the linear limits no {} {}{}", resonance + 2, in_reach,
+                                   one ? "" : "; folds of curves are followed"));
   }
   const double seconds = seconds_of_search(facts);
-  if (!is_single_frequency(scene)) {
-    return decided(
-        no,
-        "not searched: curves follow their folds, branches detached from them are looked for "
-        "with effects.coexistence = \"on\"");
-  }
   if (seconds > bearable_search) {
     return decided(
-        no,
-        fmt::format("not searched: {}, so that there may be other solutions; a search would take "
-                    "some {:.2g} s",
-                    in_reach, seconds));
+        no, fmt::format("not searched: {} {}, so that there may be other solutions; a search would "
+                        "take some {:.2g} s",
+                        resonance, in_reach, seconds));
   }
-  return decided(yes, fmt::format("{}: other solutions are looked for", in_reach));
+  return decided(yes, fmt::format("{} {}: other solutions are looked for", resonance, in_reach));
 }
 
 /// Of the modes that a scene of numbers gives, with what stands for omitted ones.
@@ -519,7 +513,7 @@ EffectDecision decide(const EffectRow& row, const EffectFacts& facts) {
 
 double seconds_of_search(const EffectFacts& facts) {
   return search_seconds(facts.scene, curve_effects(facts.scene, facts.both_directions),
-                        default_starts(facts.scene));
+                        likely_starts(facts.scene));
 }
 
 std::string harmonics_text(const SceneDescription& scene) {
@@ -535,23 +529,25 @@ std::string harmonics_text(const SceneDescription& scene) {
   return fmt::format("the orders {} are kept", fmt::join(harmonics.orders, ", "));
 }
 
-int default_starts(const SceneDescription& scene) {
-  return scene.response->search_starts.value_or(starts_of_a_search);
-}
-
 int asked_starts(const SceneDescription& scene) {
   const bool on = setting_of(scene, "coexistence") == "on";
-  return on ? default_starts(scene) : scene.response->search_starts.value_or(0);
+  return scene.response->search_starts.value_or(on ? starts_of_a_search : 0);
+}
+
+int likely_starts(const SceneDescription& scene) {
+  const int asked = asked_starts(scene);
+  if (asked > 0) return asked;
+  return is_single_frequency(scene) ? starts_of_a_search : starts_beside_a_curve;
 }
 
 int search_starts(const SceneDescription& scene, const ReducedModel& model, double load) {
   const int asked = asked_starts(scene);
-  if (asked > 0 || model.patches.empty() || !is_single_frequency(scene)) return asked;
+  if (asked > 0 || model.patches.empty()) return asked;
   EffectFacts facts{.scene = scene, .model = &model};
   facts.has_contact = true;
   facts.both_directions = model.effects.second_direction;
   facts.reach = or_refused([&] { return contact_reach(model, scene, load); });
-  return coexistence(facts).simulated == yes ? default_starts(scene) : 0;
+  return coexistence(facts).simulated == yes ? likely_starts(scene) : 0;
 }
 
 CurveEffects decided_curve_effects(const SceneDescription& scene, const ReducedModel& model) {
@@ -566,8 +562,9 @@ CurveEffects decided_curve_effects(const SceneDescription& scene, const ReducedM
       return false;
     }
   };
-  effects.is_searched =
-      is_single_frequency(scene) && std::ranges::any_of(curve_requests(scene), is_searched);
+  const std::vector<CurveRequest> requests = curve_requests(scene);
+  effects.searched_share = static_cast<double>(std::ranges::count_if(requests, is_searched)) /
+                           static_cast<double>(std::max<std::size_t>(requests.size(), 1));
   return effects;
 }
 

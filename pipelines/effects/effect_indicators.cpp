@@ -158,9 +158,13 @@ void add_point(const contact::PatchSamples& cells, Eigen::Index i, double rest_l
     return ratio(along, std::max(0.0, friction * (rest_load - change)));
   };
   const bool holds = motion.stuck && loaded && cells.has_friction(i);
-  if (holds && fallen) reach.nearby = std::max(reach.nearby, over_held(*fallen));
+  const auto add_nearby = [&](double size) {
+    reach.nearby = std::max(reach.nearby, size);
+    if (!motion.in_range) reach.outside = std::max(reach.outside, size);
+  };
+  if (holds && fallen) add_nearby(over_held(*fallen));
   if (motion.stuck == loaded) {
-    reach.nearby = std::max(reach.nearby, load);
+    add_nearby(load);
     if (motion.in_range && (load > 1.0 || !loaded)) reach.slip = std::max(reach.slip, load);
   }
   if (!motion.in_range) return;
@@ -235,7 +239,7 @@ std::vector<double> loads_of(const ReducedModel& model, const SceneDescription& 
 
 ContactReach larger(const ContactReach& a, const ContactReach& b) {
   return {std::max(a.slip, b.slip), std::max(a.load, b.load), std::max(a.bias_load, b.bias_load),
-          std::max(a.nearby, b.nearby)};
+          std::max(a.nearby, b.nearby), std::max(a.outside, b.outside)};
 }
 
 /// A limit in its own modes, damping between them left out.
@@ -322,6 +326,7 @@ class Reach {
     const ContactReach constant = reach_under(model_, *constant_, constant_motions_, fallen_, load);
     reach.slip = constant.slip;
     reach.nearby = constant.nearby;
+    reach.outside = constant.outside;
     return reach;
   }
 

@@ -29,6 +29,9 @@ struct ContactReach {
   /// structure, whose way from one limit to the other leads through the range. Where friction falls
   /// with speed, the force of the stuck limit there over what it holds at the highest speed too.
   double nearby = 0.0;
+  /// Of that, by resonances outside the range: a curve does not pass them, and a branch of theirs
+  /// that leads into the range is not met.
+  double outside = 0.0;
 };
 
 /// Under one load of a curve, by the measure of the model.

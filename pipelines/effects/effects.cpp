@@ -111,9 +111,9 @@ std::string why_no_cost(std::string_view name, const EffectFacts& facts) {
 
 /// Whether the table warns of leaving an effect out: where the user did,
 /// and what would be silent otherwise.
-bool is_watched(const EffectRecord& effect, const EffectFacts& facts) {
-  if (effect.setting == "off" || effect.name == "higher_harmonics") return true;
-  return effect.name == "coexistence" && is_single_frequency(facts.scene);
+bool is_watched(const EffectRecord& effect) {
+  constexpr std::array always{"higher_harmonics", "coexistence"};
+  return effect.setting == "off" || std::ranges::count(always, effect.name) > 0;
 }
 
 /// Empty: it is not above.
@@ -124,10 +124,9 @@ std::string objection_above(const EffectRow& row, double indicator, double thres
 }
 
 /// Left out, and the indicator says that it should not be.
-std::string objection_to(const EffectRecord& effect, const EffectRow& row,
-                         const EffectFacts& facts) {
+std::string objection_to(const EffectRecord& effect, const EffectRow& row) {
   if (effect.simulated != no || !effect.indicator || !effect.threshold) return {};
-  if (!is_watched(effect, facts)) return {};
+  if (!is_watched(effect)) return {};
   return objection_above(row, *effect.indicator, *effect.threshold);
 }
 
@@ -150,7 +149,7 @@ EffectRecord record_of(const EffectRow& row, const EffectFacts& facts) {
     effect.reason += fmt::format("; no cost is told: {}", why_no_cost(row.name, facts));
   }
   effect.refusal = std::move(decision.refusal);
-  effect.objection = objection_to(effect, row, facts);
+  effect.objection = objection_to(effect, row);
   return effect;
 }
 
