@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "solver/balance/first_harmonics.hpp"
+#include "solver/enrichment/resonances_along.hpp"
 #include "solver/peak/high_points.hpp"
 
 namespace microslip::solver {
@@ -244,8 +245,17 @@ ResponseCurve trace_with_chosen(const Scene& scene, const ContinuationOptions& r
         checked.highest.amplitude > 0.0 ? checked.highest : settled_of(chosen, curve);
     sought = chosen.is_peak ? chosen.highest : SettledPeak{};
     add(checked);
-    if (!is_new) break;
-    if (checked.settled || is_stopped(range) || curve.diagnosis == Diagnosis::interrupted) break;
+    if (is_stopped(range) || curve.diagnosis == Diagnosis::interrupted) break;
+    if (is_new && !checked.settled) continue;
+    const std::vector<int> along = resonances_along(scene, range, set, curve);
+    if (along.empty() || traces + 1 == most_traces) break;
+    ResponseCurve richer = trace(set.united(along));
+    work.iterations += richer.iterations;
+    work.contact_evaluations += richer.contact_evaluations;
+    if (!richer.complete && curve.complete) break;
+    is_given = true;
+    set = set.united(along);
+    curve = std::move(richer);
   }
   tell_peak_beside(sought, range.harmonic_tolerance, curve);
   curve.iterations = work.iterations;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,55 @@ TEST(HarmonicsCheck, TellsWhatMoreDoWhateverTheNumberOfModes) {
     const double own = highest_peak(eleven.curve)->amplitude;
     EXPECT_NEAR(three.richer->amplitude, own, 1e-6 * own) << n_modes << " modes";
   }
+}
+
+/// Mode 2 at twice a frequency in the range, where the motion of mode 1 is small: with harmonic 2 the
+/// output, which hardly sees mode 1, has its highest peak there.
+std::string with_internal_resonance(const std::string& harmonics) {
+  return R"([model]
+kind = "modal"
+[modal]
+frequency = [55.438712, 146.48495, 398.19144]
+damping_ratio = 0.001084
+force_sine = [-0.765, 0.39, 0.8976]
+output = [0.0154, 0.7914, -0.4731]
+points = [
+  { weight = 1, tangential_stiffness = 301796, normal_stiffness = 247800, friction_coefficient = 0.196, preload = 1.016, phi_u_1 = 0.2093, phi_u_2 = 0.1463, phi_u_3 = 0.3113, phi_v_1 = -0.4178, phi_v_2 = -0.05597, phi_v_3 = -0.6755 },
+  { weight = 1, tangential_stiffness = 161960, normal_stiffness = 6556.6, friction_coefficient = 0.1112, preload = 3.6245, phi_u_1 = 0.7174, phi_u_2 = 0.3808, phi_u_3 = -0.6852, phi_v_1 = 0.6521, phi_v_2 = 0.00772, phi_v_3 = 0.3206 },
+]
+[response]
+frequency = [44.4, 88.7]
+)" + harmonics;
+}
+
+TEST(ChosenHarmonics, HaveTheHighestPeakWhereverItResonates) {
+  const CurveResult five = traced(with_internal_resonance("harmonics = 5\n"));
+  const CurveResult chosen =
+      traced(with_internal_resonance("harmonics = \"auto\"\nharmonic_tolerance = 0.05\n"));
+  const solver::ResponsePoint& peak = *highest_peak(five.curve);
+  ASSERT_NEAR(peak.frequency / (2.0 * std::numbers::pi), 73.5, 0.1);
+  EXPECT_NEAR(highest_peak(chosen.curve)->frequency, peak.frequency, 1e-3 * peak.frequency);
+  EXPECT_NEAR(highest_peak(chosen.curve)->amplitude, peak.amplitude, 0.05 * peak.amplitude);
+}
+
+// Where one harmonic is enough nothing is pruned; what was solved for to confirm that tells how far
+// the frequency and the energy of the peak are off.
+TEST(ChosenHarmonics, TellTheFrequencyAndTheEnergyOfThePeak) {
+  const std::string text = scene_with(4, 15);
+  const auto harmonics = text.find("harmonics = 15");
+  const CurveResult chosen =
+      traced(text.substr(0, harmonics) + "harmonics = \"auto\"\nharmonic_tolerance = 0.1\n");
+  const CurveResult many = traced(text);
+  const solver::ResponsePoint& own = *highest_peak(chosen.curve);
+  const solver::ResponsePoint& truth = *highest_peak(many.curve);
+  const solver::SettledPeak& told = chosen.curve.settled_peak;
+  ASSERT_GT(told.amplitude, 0.0);
+  const auto left = [](double told_value, double own_value, double true_value) {
+    return std::abs(told_value - true_value) / std::abs(own_value - true_value);
+  };
+  EXPECT_LT(left(told.amplitude, own.amplitude, truth.amplitude), 0.3);
+  EXPECT_LT(left(told.frequency, own.frequency, truth.frequency), 0.3);
+  EXPECT_LT(left(told.dissipated_energy, own.energy.friction, truth.energy.friction), 0.3);
 }
 
 }  // namespace
