@@ -14,9 +14,11 @@
 #include "pipelines/model/contact_coordinates.hpp"
 #include "pipelines/model/contact_factors.hpp"
 #include "pipelines/model/contact_stage.hpp"
+#include "pipelines/model/linear_limits.hpp"
 #include "pipelines/scene/scene_file.hpp"
 #include "pipelines/structure/extrapolated_modes.hpp"
 #include "pipelines/structure/static_preload.hpp"
+#include "pipelines/system/scene_error.hpp"
 #include "pipelines/system/temporary_folder.hpp"
 
 namespace microslip::pipelines {
@@ -32,6 +34,20 @@ bool changes_structure(std::string_view key) {
       "excitation."};  // the forces: static shapes of theirs may stand behind the modes
   return std::any_of(structural.begin(), structural.end(),
                      [&](std::string_view start) { return key.starts_with(start); });
+}
+
+/// Of sixteen digits nothing is left of the modes beside a contact that stiff: a search for the first
+/// solution does not end.
+void refuse_stiffest(const ReducedModel& model) {
+  constexpr double most = 1e12;
+  if (model.patches.empty() || model.frequency.size() == 0) return;
+  const double contact = stuck_stiffness(model).cwiseAbs().maxCoeff();
+  const double modes = model.frequency.cwiseAbs2().maxCoeff();
+  if (!(modes > 0.0) || contact <= most * modes) return;
+  throw RefusedError(fmt::format(
+      "contact stiffness is {:.1e} times that of the stiffest mode, beyond {:.0e}: nothing of the "
+      "modes is left beside it; are the units of tangential_stiffness and normal_stiffness right?",
+      contact / modes, most));
 }
 
 }  // namespace
@@ -51,6 +67,7 @@ ReducedModel model_of(const SceneDescription& scene, const SolvedStructure* stru
   ReducedModel model = structure == nullptr
                            ? reduced_model(scene)
                            : model_on_basis(scene, *structure, structure->modes.basis, warnings);
+  refuse_stiffest(model);
   model.effects = contact_effects(model, scene);
   model.coordinates = contact_coordinates(model, scene);
   return model;

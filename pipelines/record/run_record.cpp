@@ -357,7 +357,7 @@ void RunRecord::warn_of_unsolved(const CurveResult& result) {
     if (event.remedy == solver::Remedy::harmonics_kept && !result.curve.points.empty()) {
       progress_.warning(fmt::format(
           "harmonics-kept: curve {}: the choice of its harmonics did not come to its end: it has "
-          "{}",
+          "{} of them",
           result.name, std::max<std::size_t>(result.curve.points.front().orders.size(), 1)));
     }
     if (event.remedy != solver::Remedy::peak_unsolved &&

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -54,9 +55,12 @@ void note_boundary_peak(ResponseCurve& curve) {
       curve.points.begin(), curve.points.end(),
       [](const ResponsePoint& a, const ResponsePoint& b) { return a.amplitude < b.amplitude; });
   const bool at_end = largest == curve.points.begin() || largest == std::prev(curve.points.end());
-  if (at_end && largest->amplitude > 0.0) {
-    curve.message = "peak at boundary: the largest amplitude lies at an end of the range";
-  }
+  if (!at_end || !(largest->amplitude > 0.0)) return;
+  std::ostringstream text;
+  text.precision(6);
+  text << "peak at boundary: the largest amplitude lies at an end of the range, "
+       << largest->amplitude << " m at " << 0.5 * largest->frequency / std::numbers::pi << " Hz";
+  curve.message = text.str();
 }
 
 /// From the other end; the points are turned to the order asked for.

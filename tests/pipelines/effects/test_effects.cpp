@@ -15,6 +15,7 @@
 #include "pipelines/effects/effect_choice.hpp"
 #include "pipelines/effects/effect_indicators.hpp"
 #include "pipelines/effects/effects.hpp"
+#include "pipelines/effects/model_family.hpp"
 #include "pipelines/model/contact_stage.hpp"
 #include "pipelines/model/reduced_model.hpp"
 #include "pipelines/model/scene_warnings.hpp"
@@ -280,13 +281,25 @@ TEST(Effects, OtherSolutionsAreLookedForWhereAResonanceNearByReachesThem) {
   };
   const std::string gap = "modal.points[0].preload=-4";
   EXPECT_GT(starts({gap}), 0);
-  EXPECT_EQ(starts({"modal.points[0].preload=-4e6"}), 0);  // out of reach
+  EXPECT_EQ(starts({"modal.points[0].preload=-4e6"}), 0);     // out of reach
   EXPECT_EQ(starts({gap, "response.frequency=[8, 12]"}), 0);  // the curve passes the resonance
   EXPECT_GT(starts({gap, "response.frequency=[10.3, 12]"}), 0);
   EXPECT_GT(starts({gap, "response.frequency=[8, 12]", "effects.coexistence=on"}), 0);
   EXPECT_EQ(starts({gap, "response.search_starts=3"}), 3);
   EXPECT_EQ(starts({gap, "response.search_starts=0"}), 0);
   EXPECT_EQ(starts({gap, "effects.coexistence=off"}), 0);
+}
+
+// The search for a first solution would not end, or end in rounding.
+TEST(Effects, AContactBesideWhichNothingIsLeftOfTheModesIsRefused) {
+  const auto model = [](const char* stiffness) {
+    std::vector<std::string> warnings;
+    return pipelines::model_of(
+        scene_of({std::string("modal.points[0].tangential_stiffness=") + stiffness}), nullptr,
+        warnings);
+  };
+  EXPECT_NO_THROW(model("1e13"));
+  EXPECT_THROW(model("4e90"), RefusedError);
 }
 
 // A point that sticks may as well slip where slipping holds less: both solutions are there.
