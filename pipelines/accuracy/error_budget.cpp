@@ -82,7 +82,7 @@ struct PeakThere {
 };
 
 /// Newton's method from the peak of a curve does not always lead to that on another mesh, whose
-/// resonances lie elsewhere: its own curve is traced there, which takes as long as the curve itself.
+/// resonances lie elsewhere: its own curve is traced there, at the price of the curve itself.
 bool is_worth_a_trace(const SceneDescription& scene, const RicherModel& richer) {
   const bool is_one_frequency =
       scene.response->frequency_begin_hz == scene.response->frequency_end_hz;
