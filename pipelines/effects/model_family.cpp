@@ -36,8 +36,8 @@ bool changes_structure(std::string_view key) {
                      [&](std::string_view start) { return key.starts_with(start); });
 }
 
-/// Of sixteen digits nothing is left of the modes beside a contact that stiff: a search for the first
-/// solution does not end.
+/// Of sixteen digits nothing is left of the modes beside a contact that stiff: a search for the
+/// first solution does not end.
 void refuse_stiffest(const ReducedModel& model) {
   constexpr double most = 1e12;
   if (model.patches.empty() || model.frequency.size() == 0) return;

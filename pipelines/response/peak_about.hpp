@@ -1,6 +1,6 @@
 /// @file
-/// The highest peak of a model from its curve about a frequency: where Newton's method does not lead
-/// to it from the peak of another model.
+/// The highest peak of a model from its curve about a frequency: where Newton's method does not
+/// lead to it from the peak of another model.
 #pragma once
 
 #include <optional>
@@ -13,8 +13,8 @@ namespace microslip::pipelines {
 
 /// @param load       as of point_parameters.hpp.
 /// @param options    of the whole curve, harmonics given; stability is not judged.
-/// @param frequency  [rad/s]: the curve is traced some resonance widths of a lightly damped blade to
-///                   either side, within its range.
+/// @param frequency  [rad/s]: the curve is traced some resonance widths of a lightly damped blade
+///                   to either side, within its range.
 /// @return  empty: it is stopped, or has no peak there that is above all else.
 [[nodiscard]] std::optional<solver::ResponsePoint> peak_about(const ReducedModel& model,
                                                               double load,

@@ -1,7 +1,7 @@
 /// @file
 /// One set of harmonics for a response curve: what its highest points need (peak_harmonics.hpp),
-/// found on a curve with the least set first, and what may resonate along it (resonances_along.hpp).
-/// Points away from the peaks have the same set; what else it leaves out there is not asked.
+/// found on a curve with the least set first, and what may resonate along it
+/// (resonances_along.hpp). Points away from the peaks have the same set; what else it leaves out there is not asked.
 #pragma once
 
 #include <functional>

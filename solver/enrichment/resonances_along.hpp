@@ -17,8 +17,8 @@ namespace microslip::solver {
 ///
 ///   |ψ_j · G^(k)| / (2 ζ_j ω_j kω)
 ///
-/// is more than the tolerance of the first harmonic of the curve's largest point, or moves the output
-/// by more than that of its amplitude. Motions are interpolated between the points of the curve.
+/// is more than the tolerance of the first harmonic of the curve's largest point, or moves the
+/// output by more than that of its amplitude. Motions are interpolated between points of the curve.
 /// @param range  `harmonic_tolerance` > 0, and `n_harmonics`, the highest that may be added.
 [[nodiscard]] std::vector<int> resonances_along(const Scene& scene,
                                                 const ContinuationOptions& range,

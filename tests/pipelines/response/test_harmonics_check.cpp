@@ -58,8 +58,8 @@ TEST(HarmonicsCheck, TellsWhatMoreDoWhateverTheNumberOfModes) {
   }
 }
 
-/// Mode 2 at twice a frequency in the range, where the motion of mode 1 is small: with harmonic 2 the
-/// output, which hardly sees mode 1, has its highest peak there.
+/// Mode 2 at twice a frequency in the range, where the motion of mode 1 is small: with harmonic 2
+/// the output, which hardly sees mode 1, has its highest peak there.
 std::string with_internal_resonance(const std::string& harmonics) {
   return R"([model]
 kind = "modal"
