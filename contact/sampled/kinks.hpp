@@ -102,8 +102,8 @@ void find_kinks(const SmoothPoint& point, const std::vector<Run>& runs, const Li
 void find_load_kinks(const double* closeness, std::size_t n, Kinks& kinks);
 
 /// What mend() does to the moments of dn/dv of a point that opens or closes: for the instants that
-/// the sums count too much or too little. The antisymmetric part of the derivative, of second order,
-/// has no place there. @param moments  those of Instants, added to.
+/// the sums count too much or too little. The antisymmetric part, of second order, has no place
+/// there. @param moments  those of Instants, added to.
 void add_load_moments(const Kink& kink, double normal_stiffness, const Instants& instants,
                       std::vector<double>& moments);
 

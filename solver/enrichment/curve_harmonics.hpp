@@ -1,7 +1,8 @@
 /// @file
 /// One set of harmonics for a response curve: what its highest points need (peak_harmonics.hpp),
 /// found on a curve with the least set first, and what may resonate along it
-/// (resonances_along.hpp). Points away from the peaks have the same set; what else it leaves out there is not asked.
+/// (resonances_along.hpp). Points away from the peaks have the same set; what else it leaves out
+/// there is not asked.
 #pragma once
 
 #include <functional>
