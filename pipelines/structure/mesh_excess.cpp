@@ -74,8 +74,7 @@ MeshExcess mesh_excess(const mesh::Mesh& mesh, const StructureModes& modes,
   if (excess.maxCoeff() <= limit) return told;
   told.warning = fmt::format(
       "model.file: its elements put natural frequencies too high by up to some {:.2g} %{}, and "
-      "peaks "
-      "with them, which is in no bar: take {}",
+      "peaks with them, which is in no bar: take {}",
       percent * excess.maxCoeff(), at_least,
       are_quadratic(mesh) ? "smaller ones" : "quadratic ones");
   return told;
