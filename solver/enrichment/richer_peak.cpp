@@ -21,6 +21,7 @@ namespace {
 
 constexpr double farthest = 4.0;     // amplitudes or widths along the branch
 constexpr double much_lower = 0.95;  // of the amplitude
+constexpr double moved_much = 0.02;  // the same
 
 /// By friction in a period [J].
 double energy_of(HarmonicBalance& balance, const LocalPeak& peak) {
@@ -144,8 +145,15 @@ std::optional<RicherPeak> richer_peak(const Scene& scene, const ContinuationOpti
   RicherPeak result{top->point.frequency, top->point.amplitude, std::nullopt, highest};
   const HarmonicSet all = coarse.set().united(HarmonicSet(highest).orders());
   PeakWork work;
-  const std::optional<LocalPeak> found =
+  std::optional<LocalPeak> found =
       carried_peak(scene, widened(range), top->peak, coarse.set(), all, work);
+  // Next to an internal resonance a peak becomes two: the other one is reached from beside it.
+  if (found && std::abs(found->amplitude / top->point.amplitude - 1.0) > moved_much) {
+    for (const LocalPeak& beside : places_beside(coarse, curve, top->point)) {
+      auto next = carried_peak(scene, widened(range), beside, coarse.set(), all, work);
+      if (next && next->amplitude > found->amplitude) found = std::move(next);
+    }
+  }
   result.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   if (!found || found->amplitude < another_peak * top->point.amplitude) return result;
   result.frequency = found->point.parameter;

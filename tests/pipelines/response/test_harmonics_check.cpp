@@ -58,6 +58,31 @@ TEST(HarmonicsCheck, TellsWhatMoreDoWhateverTheNumberOfModes) {
   }
 }
 
+// Mode 2, hardly damped, at three times the peak, which becomes two with harmonic 3: the lower one
+// is nearer to it.
+TEST(HarmonicsCheck, TellsTheHigherOfTwoPeaksBesideAnInternalResonance) {
+  const auto scene = [](const char* harmonics) {
+    return std::string(R"([model]
+kind = "modal"
+[modal]
+frequency = [20, 64.0855690801184]
+damping_ratio = [0.003, 1.1855e-6]
+force_sine = [7, 0]
+output = [0.75, 0.5]
+points = [ { weight = 1, tangential_stiffness = 4e4, normal_stiffness = 4e4, friction_coefficient = 0.5, preload = 28.59, phi_u_1 = 0.5, phi_u_2 = 0.05, phi_v_1 = 0.1 } ]
+[response]
+frequency = [19, 28]
+harmonics = )") +
+           harmonics + "\n";
+  };
+  const CurveResult one = traced(scene("1"));
+  const CurveResult nine = traced(scene("9"));
+  const double truth = highest_peak(nine.curve)->amplitude;
+  ASSERT_GT(truth, 1.5 * highest_peak(one.curve)->amplitude);
+  ASSERT_TRUE(one.richer && one.richer->change);
+  EXPECT_NEAR(one.richer->amplitude, truth, 1e-6 * truth);
+}
+
 /// Mode 2 at twice a frequency in the range, where the motion of mode 1 is small: with harmonic 2
 /// the output, which hardly sees mode 1, has its highest peak there.
 std::string with_internal_resonance(const std::string& harmonics) {
