@@ -206,7 +206,9 @@ void add_certificate(CurveBudget& budget, const CurveResult& result,
 
 std::string energy_text(const CurveBudget& budget, const std::string& curve) {
   if (!budget.energy_ratio) return "friction dissipates nothing there";
-  return "dissipated energy ± " + percent_text(bar_of(budget.rows, curve, energy));
+  const double bar = bar_of(budget.rows, curve, energy);
+  if (bar > 1.0) return "dissipated energy ± more than all of it";
+  return "dissipated energy ± " + percent_text(bar);
 }
 
 /// Of one source and goal, over all curves that know it.
