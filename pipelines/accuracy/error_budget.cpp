@@ -108,7 +108,10 @@ std::optional<PeakThere> peak_there(const ReducedModel& own, const SceneDescript
   if (!is_worth_a_trace(scene, richer)) return std::nullopt;
   const auto traced =
       peak_about(refined, load, solver::with_those_of(here, options, curve), factor * at);
-  if (!traced) return std::nullopt;
+  // The highest about there may be another one.
+  constexpr double same = 0.1;  // of the amplitude
+  const double own_amplitude = highest_peak(curve)->amplitude;
+  if (!traced || std::abs(traced->amplitude / own_amplitude - 1.0) > same) return std::nullopt;
   return PeakThere{{traced->amplitude, traced->frequency, traced->energy.friction}};
 }
 
