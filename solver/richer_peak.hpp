@@ -39,7 +39,7 @@ struct RicherPeak {
                                                     const ResponseCurve& curve, int highest);
 
 /// The options with the harmonics that points of the curve have: they may have been chosen.
-[[nodiscard]] ContinuationOptions with_those_of(const Scene& scene,
+[[nodiscard]] ContinuationOptions with_harmonics_of(const Scene& scene,
                                                 const ContinuationOptions& range,
                                                 const ResponseCurve& curve);
 

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "pipelines/effects/effect_choice.hpp"
 #include "pipelines/response/highest_peak.hpp"
 #include "pipelines/response/peak_about.hpp"
 #include "pipelines/response/resonating_shapes.hpp"
@@ -84,9 +85,7 @@ struct PeakThere {
 /// Newton's method from the peak of a curve does not always lead to that on another mesh, whose
 /// resonances lie elsewhere: its own curve is traced there, at the price of the curve itself.
 bool is_worth_a_trace(const SceneDescription& scene, const RicherModel& richer) {
-  const bool is_one_frequency =
-      scene.response->frequency_begin_hz == scene.response->frequency_end_hz;
-  return richer.source == "mesh" && scene.accuracy.tolerance > 0.0 && !is_one_frequency;
+  return richer.source == "mesh" && scene.accuracy.tolerance > 0.0 && !is_single_frequency(scene);
 }
 
 /// The highest peak of the curve in another model.
@@ -98,20 +97,19 @@ std::optional<PeakThere> peak_there(const ReducedModel& own, const SceneDescript
   const solver::ContinuationOptions options = options_of_both(scene, own, refined);
   const solver::Scene here = solver_scene(own, load);
   const solver::Scene there = solver_scene(refined, load);
-  const double at = highest_peak(curve)->frequency;
-  const double factor = frequency_factor(own, richer.model, at, richer.embedding);
+  const solver::ResponsePoint& top = *highest_peak(curve);
+  const double factor = frequency_factor(own, richer.model, top.frequency, richer.embedding);
   if (const auto peak = solver::peak_elsewhere(
           here, options, curve, {there, richer.embedding, factor, told_by_step(scene, richer)})) {
     return PeakThere{{peak->other_amplitude, peak->other_frequency, peak->other_dissipated_energy},
                      peak->is_solved ? ErrorKind::solved : ErrorKind::estimated};
   }
   if (!is_worth_a_trace(scene, richer)) return std::nullopt;
-  const auto traced =
-      peak_about(refined, load, solver::with_those_of(here, options, curve), factor * at);
-  // The highest about there may be another one.
+  const auto traced = peak_about(refined, load, solver::with_harmonics_of(here, options, curve),
+                                 factor * top.frequency);
+  // The highest about there may be another one: beside the best preload one was, 12 % away.
   constexpr double same = 0.1;  // of the amplitude
-  const double own_amplitude = highest_peak(curve)->amplitude;
-  if (!traced || std::abs(traced->amplitude / own_amplitude - 1.0) > same) return std::nullopt;
+  if (!traced || std::abs(traced->amplitude / top.amplitude - 1.0) > same) return std::nullopt;
   return PeakThere{{traced->amplitude, traced->frequency, traced->energy.friction}};
 }
 

@@ -30,7 +30,7 @@ using enum Simulated;
 
 constexpr double percent = 100.0;
 constexpr int starts_of_a_search = 12;
-// Of one that nobody has asked for, per frequency of a curve: two found whatever twelve did.
+// Of one that nobody has asked for, per frequency of a curve: of three two found what twelve did.
 constexpr int starts_beside_a_curve = 4;
 constexpr double bearable_search = 60.0;  // [s]: what a scene may wait for without having asked
 constexpr const char* in_reach =          // of `coexistence`, after which resonance
@@ -375,7 +375,7 @@ EffectDecision coexistence(const EffectFacts& facts) {
   EffectDecision decision;
   const bool one = is_single_frequency(scene);
   if (facts.reach) decision.indicator = one ? facts.reach->nearby : facts.reach->outside;
-  const char* resonance = one ? "a resonance near by" : "a resonance outside the range";
+  const char* resonance = one ? "resonance near by" : "resonance outside the range";
   const auto decided = [&](Simulated simulated, std::string reason) {
     decision.simulated = simulated;
     decision.reason = std::move(reason);
@@ -392,17 +392,18 @@ EffectDecision coexistence(const EffectFacts& facts) {
   if (facts.model == nullptr) return decided(undecided, later);
   if (!facts.reach) return decided(no, limits_alone);
   if (*decision.indicator <= effect_row("coexistence").threshold) {
-    return decided(no, fmt::format("in the linear limits no {} {}{}", resonance + 2, in_reach,
+    return decided(no, fmt::format("in the linear limits no {} {}{}", resonance, in_reach,
                                    one ? "" : "; folds of curves are followed"));
   }
   const double seconds = seconds_of_search(facts);
   if (seconds > bearable_search) {
     return decided(
-        no, fmt::format("not searched: {} {}, so that there may be other solutions; a search would "
-                        "take some {:.2g} s",
-                        resonance, in_reach, seconds));
+        no,
+        fmt::format("not searched: a {} {}, so that there may be other solutions; a search would "
+                    "take some {:.2g} s",
+                    resonance, in_reach, seconds));
   }
-  return decided(yes, fmt::format("{} {}: other solutions are looked for", resonance, in_reach));
+  return decided(yes, fmt::format("a {} {}: other solutions are looked for", resonance, in_reach));
 }
 
 /// Of the modes that a scene of numbers gives, with what stands for omitted ones.

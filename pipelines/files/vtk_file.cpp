@@ -5,9 +5,14 @@
 #include <vtkFloatArray.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
+#include <vtkObjectFactory.h>
 #include <vtkStringArray.h>
 #include <vtkXMLPolyDataWriter.h>
 #include <vtkXMLUnstructuredGridWriter.h>
+#include <vtkZLibDataCompressor.h>
+
+#include <cstddef>
+#include <new>
 
 #include "pipelines/system/output_file.hpp"
 #include "pipelines/system/scene_error.hpp"
@@ -30,14 +35,29 @@ void add(vtkFieldData& data, const std::string& name, const Matrix& values) {
   data.AddArray(array);
 }
 
+/// Where memory ends in it the writer of VTK would follow a null pointer.
+class Compressor : public vtkZLibDataCompressor {
+ public:
+  static Compressor* New() { VTK_STANDARD_NEW_BODY(Compressor); }
+
+ protected:
+  std::size_t CompressBuffer(const unsigned char* from, std::size_t size, unsigned char* to,
+                             std::size_t space) override {
+    const std::size_t used = vtkZLibDataCompressor::CompressBuffer(from, size, to, space);
+    if (used == 0) throw std::bad_alloc();
+    return used;
+  }
+};
+
 template <typename Writer>
 std::string serialise(vtkPointSet& data) {
   vtkNew<Writer> writer;
   writer->SetInputData(&data);
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOn();  // plain XML: other readers and diff tools open it too
-  // Where memory ends in its compressor VTK follows a null pointer.
-  writer->SetCompressorTypeToNone();
+  vtkNew<Compressor> compressor;
+  compressor->SetCompressionLevel(1);  // a third of the time of 5, a tenth more bytes
+  writer->SetCompressor(compressor);
   writer->WriteToOutputStringOn();
   if (writer->Write() == 0) throw ExhaustedError("VTK could not build a file in memory");
   return writer->GetOutputString();

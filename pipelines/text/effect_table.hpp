@@ -83,7 +83,7 @@ inline constexpr std::array effect_table{
               "nothing shows where the face sticks, slips and opens"},
     EffectRow{"coexistence", "search for other solutions beside those found",
               "approach over gap, change of load over load, or force over friction that falls with "
-              "speed, at resonances near by",
+              "speed, at resonances near by, of a curve at those outside its range",
               1.0, "a solution that no sweep meets is not seen", true},
 };
 

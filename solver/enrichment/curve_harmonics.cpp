@@ -117,6 +117,12 @@ void tell_peak_beside(const SettledPeak& found, double tolerance, ResponseCurve&
   curve.message += text.str();
 }
 
+void note_unsettled(ResponseCurve& curve) {
+  if (curve.points.empty()) return;
+  const auto highest = std::ranges::max_element(curve.points, {}, &ResponsePoint::amplitude);
+  curve.log.push_back({highest->frequency, Remedy::harmonics_kept});
+}
+
 void count(CurveHarmonics& sum, const PeakWork& work) {
   sum.iterations += work.iterations;
   sum.contact_evaluations += work.contact_evaluations;
@@ -219,6 +225,13 @@ ResponseCurve trace_with_chosen(const Scene& scene, const ContinuationOptions& r
     work.contact_evaluations += done.contact_evaluations;
     work.settled = done.settled;
   };
+  const auto traced_with = [&](const HarmonicSet& all) {
+    is_given = true;
+    ResponseCurve richer = trace(all);
+    work.iterations += richer.iterations;
+    work.contact_evaluations += richer.contact_evaluations;
+    return richer;
+  };
   for (int traces = 0; traces < most_traces; ++traces) {
     CurveHarmonics chosen = choose_harmonics(scene, range, set, curve, first);
     add(chosen);
@@ -227,10 +240,7 @@ ResponseCurve trace_with_chosen(const Scene& scene, const ContinuationOptions& r
       set = chosen.set;
       curve = std::move(*chosen.traced);
     } else if (is_new) {
-      is_given = true;
-      ResponseCurve richer = trace(chosen.set);
-      work.iterations += richer.iterations;
-      work.contact_evaluations += richer.contact_evaluations;
+      ResponseCurve richer = traced_with(chosen.set);
       if (!richer.complete &&
           is_stopped(range)) {  // a whole curve is worth more than half of a better one
         work.settled = false;
@@ -248,22 +258,18 @@ ResponseCurve trace_with_chosen(const Scene& scene, const ContinuationOptions& r
     if (is_stopped(range) || curve.diagnosis == Diagnosis::interrupted) break;
     if (is_new && !checked.settled) continue;
     const std::vector<int> along = resonances_along(scene, range, set, curve);
-    if (along.empty() || traces + 1 == most_traces) break;
-    ResponseCurve richer = trace(set.united(along));
-    work.iterations += richer.iterations;
-    work.contact_evaluations += richer.contact_evaluations;
+    if (along.empty()) break;
+    work.settled = false;  // until they are asked
+    if (traces + 1 == most_traces) break;
+    ResponseCurve richer = traced_with(set.united(along));
     if (!richer.complete && curve.complete) break;
-    is_given = true;
     set = set.united(along);
     curve = std::move(richer);
   }
   tell_peak_beside(sought, range.harmonic_tolerance, curve);
   curve.iterations = work.iterations;
   curve.contact_evaluations = work.contact_evaluations;
-  if (!work.settled && !curve.points.empty()) {
-    const auto highest = std::ranges::max_element(curve.points, {}, &ResponsePoint::amplitude);
-    curve.log.push_back({highest->frequency, Remedy::harmonics_kept});
-  }
+  if (!work.settled) note_unsettled(curve);
   return curve;
 }
 

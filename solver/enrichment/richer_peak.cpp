@@ -167,8 +167,8 @@ std::optional<RicherPeak> richer_peak(const Scene& scene, const ContinuationOpti
   return result;
 }
 
-ContinuationOptions with_those_of(const Scene& scene, const ContinuationOptions& range,
-                                  const ResponseCurve& curve) {
+ContinuationOptions with_harmonics_of(const Scene& scene, const ContinuationOptions& range,
+                                      const ResponseCurve& curve) {
   return with_harmonics(range, set_of(scene, range, curve));
 }
 

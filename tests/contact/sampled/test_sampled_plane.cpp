@@ -153,9 +153,10 @@ TEST(SampledPlane, TheLoadOfSmoothSurfacesIsThatAlongALine) {
     const Eigen::VectorXd plane = load(smooth(c), 3);
     const double scale = planar_scale(c);
     ASSERT_LE((plane - load(smooth(c), 2)).norm(), 1e-13 * scale);
-    const Eigen::VectorXd exact = exact_force(smooth(c), c).rows().col(1);
-    EXPECT_LE((plane - exact).norm(), 3e-5 * scale);
-    if ((exact - load(smooth(c), 3)).norm() > 1e-9 * scale) ++n_parting;
+    const double apart = (plane - exact_force(smooth(c), c).rows().col(1)).norm();
+    EXPECT_LE(apart, 3e-5 * scale);
+    // Else the load is that of the motion, to rounding.
+    if (apart > 1e-9 * scale) ++n_parting;
   }
   EXPECT_GT(n_parting, 8);
 }
