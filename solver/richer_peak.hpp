@@ -40,8 +40,8 @@ struct RicherPeak {
 
 /// The options with the harmonics that points of the curve have: they may have been chosen.
 [[nodiscard]] ContinuationOptions with_harmonics_of(const Scene& scene,
-                                                const ContinuationOptions& range,
-                                                const ResponseCurve& curve);
+                                                    const ContinuationOptions& range,
+                                                    const ResponseCurve& curve);
 
 /// The same blade modelled otherwise: finer cells, other shapes, another mesh, friction along r.
 struct OtherModel {
