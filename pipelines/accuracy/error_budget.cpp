@@ -107,9 +107,7 @@ std::optional<PeakThere> peak_there(const ReducedModel& own, const SceneDescript
   if (!is_worth_a_trace(scene, richer)) return std::nullopt;
   const auto traced = peak_about(refined, load, solver::with_harmonics_of(here, options, curve),
                                  factor * top.frequency);
-  // The highest about there may be another one: beside the best preload one was, 12 % away.
-  constexpr double same = 0.1;  // of the amplitude
-  if (!traced || std::abs(traced->amplitude / top.amplitude - 1.0) > same) return std::nullopt;
+  if (!traced) return std::nullopt;
   return PeakThere{{traced->amplitude, traced->frequency, traced->energy.friction}};
 }
 
