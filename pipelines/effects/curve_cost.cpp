@@ -27,10 +27,11 @@ constexpr double of_many_events = 3.2;
 constexpr double of_one_point_that_opens = 4.0;
 // An effect put back at the peaks of a curve: of a mesh, with a peak or two; of numbers.
 constexpr double of_an_effect_on_a_mesh = 60.0;
-constexpr double of_an_effect = 350.0;
+constexpr double of_an_effect = 600.0;
 constexpr double of_one_frequency = 25.0;
 constexpr double of_a_check = 30.0;  // of the peak, with eight harmonics more than were given
-constexpr double of_a_start = 20.0;
+constexpr double of_a_start = 20.0;  // at a single frequency
+constexpr double of_a_start_beside_a_curve = 60.0;
 // Of a curve: five richer models, one of four times the points.
 constexpr double of_error_rows = 450.0;
 constexpr double of_error_rows_of_chosen = 700.0;  // peaks have more harmonics than their curves
@@ -388,7 +389,10 @@ ResponseSeconds response_seconds(const SceneDescription& scene, const CurveEffec
       const double in_plane = effects.second_direction ? 2.0 : 1.0;
       const double of_rows =
           in_plane * (effects.chosen_harmonics ? of_error_rows_of_chosen : of_error_rows);
-      const double rows = meshed ? of_rows * evaluation : 0.0;
+      // What one harmonic leaves out is looked at along the whole curve.
+      const double rows = meshed                      ? of_rows * evaluation
+                          : effects.several_harmonics ? 0.0
+                                                      : points_of_a_curve * evaluation;
       const double check = meshed ? of_an_effect_on_a_mesh : of_an_effect;
       const double n_with_rows = n_curves(scene) - (1.0 - rows_of_a_linear_curve) * n_linear;
       seconds.errors = n_with_rows * (rows + check * evaluations_with(scene, effects));
@@ -401,9 +405,19 @@ ResponseSeconds response_seconds(const SceneDescription& scene, const CurveEffec
   return seconds;
 }
 
+double begun_seconds(const SceneDescription& scene, const CurveEffects& effects, long n_evaluations,
+                     long n_points) {
+  const Size size = size_of(scene, effects);
+  return static_cast<double>(n_evaluations) * evaluation_seconds(effects, size) +
+         static_cast<double>(n_points) * stability_seconds(scene, effects, size);
+}
+
+double search_beside_folds(double n_folds) { return 1.0 + 2.0 * n_folds / frequencies_of_a_search; }
+
 double search_seconds(const SceneDescription& scene, const CurveEffects& effects, int n_starts) {
   const bool one = is_single_frequency(scene);
-  const double starts = (one ? 1.0 : frequencies_of_a_search) * n_starts * of_a_start;
+  const double starts =
+      n_starts * (one ? of_a_start : frequencies_of_a_search * of_a_start_beside_a_curve);
   const double followed = one && n_starts > 0 ? of_a_curve : 0.0;  // its own branch
   const Size size = size_of(scene, effects);
   return n_curves(scene) * (starts + followed) * evaluation_seconds(effects, size);

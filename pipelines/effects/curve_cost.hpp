@@ -46,6 +46,13 @@ struct ResponseSeconds {
 [[nodiscard]] ResponseSeconds response_seconds(const SceneDescription& scene,
                                                const CurveEffects& effects);
 
+/// A part of a curve [s], where machine_slowness() is 1, from what was done of it.
+[[nodiscard]] double begun_seconds(const SceneDescription& scene, const CurveEffects& effects,
+                                   long n_evaluations, long n_points);
+
+/// Times as long a search takes beside a curve with so many folds, on either side of which it looks.
+[[nodiscard]] double search_beside_folds(double n_folds);
+
 /// A search for other solutions with every curve [s], where machine_slowness() is 1: whether it is
 /// made hangs on it, which no machine decides. @param n_starts  per frequency.
 [[nodiscard]] double search_seconds(const SceneDescription& scene, const CurveEffects& effects,

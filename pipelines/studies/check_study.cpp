@@ -29,6 +29,7 @@
 #include "pipelines/model/scene_warnings.hpp"
 #include "pipelines/questions/questions.hpp"
 #include "pipelines/response/curve_requirements.hpp"
+#include "pipelines/response/curve_trial.hpp"
 #include "pipelines/structure/extrapolated_modes.hpp"
 #include "pipelines/structure/memory_before_mesh.hpp"
 #include "pipelines/structure/solver_time.hpp"
@@ -46,6 +47,7 @@ namespace {
 constexpr double memory_without_a_mesh = 0.06;  // [GB], measured
 constexpr double memory_before_modes = 0.15;    // with the libraries of finite elements
 constexpr double longest_solution = 2.0;        // [s] forecast, of modes that `check` solves for
+constexpr double longest_trial = 1.0;           // [s] that curves are begun for
 
 /// @param model  where effects are decided, else nullptr.
 void add_curves(const SceneDescription& scene, const ReducedModel* model, Forecast& forecast) {
@@ -53,10 +55,13 @@ void add_curves(const SceneDescription& scene, const ReducedModel* model, Foreca
   forecast.pictures = picture_seconds(scene);
   using enum Discretisation::Choice;
   const Discretisation::Choice along_r = scene.settings.second_direction;
-  const CurveEffects effects =
-      model != nullptr ? decided_curve_effects(scene, *model) : curve_effects(scene, along_r == on);
-  forecast.response = response_seconds(scene, effects);
-  if (model == nullptr && along_r == automatic) {
+  if (model != nullptr) {
+    const CurveEffects effects = decided_curve_effects(scene, *model);
+    forecast.response = tried_seconds(*model, scene, effects, longest_trial);
+    return;
+  }
+  forecast.response = response_seconds(scene, curve_effects(scene, along_r == on));
+  if (along_r == automatic) {
     forecast.response_along_r = response_seconds(scene, curve_effects(scene, true));
   }
 }

@@ -38,7 +38,7 @@ struct CheckResult {
 
 /// `check`: what would be simulated and what it would cost, what of the mesh is used, and what is
 /// unusual. Modes are asked where they are given, kept by an earlier run, or solved for in seconds;
-/// no curve is solved for.
+/// where they are, curves are begun for a second.
 /// @param picture  of the blade with its places marked is drawn into this file; empty: none.
 /// @param options  of the run that is forecast: which parts it leaves out.
 /// @throws SceneError  the scene cannot be used, or has no mesh to draw.

@@ -151,7 +151,7 @@ std::optional<RicherPeak> richer_peak(const Scene& scene, const ContinuationOpti
   // Next to an internal resonance a peak becomes two: the other one is reached from beside it. With
   // many unknowns that takes longer than the curve: 14 s beside 7 for the default blade.
   const bool is_cheap = (2 * all.count() + 1) * scene.n_modes() <= most_unknowns;
-  if (found && is_cheap && std::abs(found->amplitude / top->point.amplitude - 1.0) > moved_much) {
+  if (found && is_cheap && found->amplitude < (1.0 - moved_much) * top->point.amplitude) {
     for (const LocalPeak& beside : places_beside(coarse, curve, top->point)) {
       auto next = carried_peak(scene, widened(range), beside, coarse.set(), all, work);
       if (next && next->amplitude > found->amplitude) found = std::move(next);

@@ -12,7 +12,9 @@ import subprocess
 import sys
 import unittest
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "hard_cases"))
 from program_run import whole_campaigns, without_plots
+from random_runs import scene_of
 
 PROGRAM, SOURCE, FOLDER = sys.argv[1:4]
 SCENES = os.path.join(SOURCE, "share", "scenes")
@@ -37,6 +39,15 @@ def block(preload, harmonics, *settings):
     return f"{SCENES}/block_rough.toml", [law, f"response.harmonics={harmonics}", f"response.preload={preload}", "response.maps=[]", *settings]
 
 
+def drawn(seed, number):
+    """A scene of random_runs.py."""
+    os.makedirs(FOLDER, exist_ok=True)
+    path = os.path.join(FOLDER, f"{seed}_{number}.toml")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(scene_of(seed, number)[1])
+    return path, []
+
+
 BOTH = "effects.second_direction=on"
 FEW = {
     "area, 9 harmonics": (f"{SCENES}/chain_2dof_moment.toml", ["response.maps=[]"]),
@@ -50,6 +61,9 @@ FEW = {
     # Events located at sixteen points, where most slip; the check of what is off.
     "block, rough, by speed, both": block("[80]", 1, 'response.frequency=["32.6 Hz", "40 Hz"]'),
     "block, rough, by speed, r off": block("[20]", 1, "effects.second_direction=off"),
+    # Three times what constants say of a curve, and more: folds, and friction in a plane.
+    "901.36, exponential, 5": drawn(901, 36),
+    "901.40, in a plane, 5": drawn(901, 40),
     "blade, 3, three effects off": blade(3, "[100, 500]", *(f"effects.{name}=off" for name in ("roughness", "moments", "residual")), CUBIC),
 }
 REST = {
@@ -67,6 +81,8 @@ REST = {
     "blade, 1, best value": blade(1, "[100]", search=True),
     "blade of 6 mm, 1 harmonic": blade(1, "[100, 500]", size=6),
     "blade of 6 mm, iterative modes": blade(1, "[100, 500]", "modes.solver=iterative", size=6),
+    "901.20, a chain, 5": drawn(901, 20),
+    "901.29, exponential, 3": drawn(901, 29),
     "STEP file, 1 harmonic": (f"{SCENES}/step_blade.toml", ["response.preload=[100, 300]", "response.maps=[]"]),
 }
 

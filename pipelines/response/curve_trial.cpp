@@ -1,0 +1,164 @@
+#include "pipelines/response/curve_trial.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <numbers>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "pipelines/description/curve_request.hpp"
+#include "pipelines/effects/effect_choice.hpp"
+#include "pipelines/model/curve_load.hpp"
+#include "pipelines/response/response_stage.hpp"
+#include "pipelines/system/interrupt.hpp"
+#include "pipelines/system/machine_speed.hpp"
+#include "pipelines/system/scene_error.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+/// Else too short to tell what an evaluation takes.
+constexpr double least_trial = 0.1;  // [s]
+
+double processor_seconds() {
+  return static_cast<double>(std::clock()) / static_cast<double>(CLOCKS_PER_SEC);
+}
+
+SceneDescription without_search(SceneDescription scene) {
+  scene.response->search_starts = 0;
+  return scene;
+}
+
+/// Which share of a curve lies between its beginning and a frequency: that of the points of both
+/// linear limits, which are close where they resonate.
+class WayAlong {
+ public:
+  WayAlong(const ReducedModel& model, const SceneDescription& scene)
+      : is_upward_(scene.response->frequency_end_hz > scene.response->frequency_begin_hz) {
+    for (const LimitName limit : {LimitName::free, LimitName::stuck}) {
+      for (const solver::ResponsePoint& point : limit_curve(model, scene, limit).points) {
+        frequencies_.push_back(point.frequency);
+      }
+    }
+  }
+
+  [[nodiscard]] double share_before(double frequency) const {
+    const auto n = std::ranges::count_if(
+        frequencies_, [&](double one) { return is_upward_ ? one <= frequency : one >= frequency; });
+    return static_cast<double>(n) /
+           static_cast<double>(std::max<std::size_t>(frequencies_.size(), 1));
+  }
+
+ private:
+  std::vector<double> frequencies_;  // [rad/s]
+  bool is_upward_;
+};
+
+/// What was done of a curve.
+struct Trial {
+  double seconds = 0.0;
+  double before_first_point = 0.0;  ///< of them: few harmonics, from which more are chosen
+  double walked = 0.0;              ///< of them: to the last point, without checks of the curve
+  double share = 0.0;               ///< of its way
+  long evaluations = 0;
+  long points = 0;
+  long folds = 0;
+  bool complete = false;
+};
+
+Trial try_curve(const ReducedModel& model, const SceneDescription& scene,
+                const CurveRequest& request, const WayAlong& way, double seconds) {
+  const double begin = processor_seconds();
+  const auto spent = [begin] { return processor_seconds() - begin; };
+  Trial trial;
+  const auto observe = [&](const solver::ResponsePoint& point) {
+    if (trial.points++ == 0) trial.before_first_point = spent();
+    trial.share = std::max(trial.share, way.share_before(point.frequency));
+    if (point.mark == solver::PointMark::fold) ++trial.folds;
+    trial.walked = spent();
+    return trial.walked < seconds && !interrupt_requested();
+  };
+  const CurveResult result = trace_curve(model, scene, request, observe);
+  trial.seconds = spent();
+  trial.evaluations = result.curve.contact_evaluations;
+  trial.complete = trial.seconds < seconds;
+  return trial;
+}
+
+/// Of a whole curve. The pace of a beginning says little. @param before  what it was forecast to
+/// take.
+double seconds_of(const Trial& trial, double before) {
+  if (trial.complete) return trial.seconds;
+  const double on_the_way = trial.seconds - trial.before_first_point;
+  if (!(trial.share > 0.0) || !(on_the_way > 0.0)) return std::max(before, 2.0 * trial.seconds);
+  const double by_pace = on_the_way / trial.share;
+  const double of_way = std::max(before - trial.before_first_point, on_the_way);
+  const double weight = std::cbrt(trial.share);
+  const double rest = std::pow(by_pace, weight) * std::pow(of_way, 1.0 - weight);
+  return trial.seconds + (1.0 - trial.share) * rest;
+}
+
+/// Curves under a load.
+std::vector<CurveRequest> loaded_curves(const SceneDescription& scene) {
+  std::vector<CurveRequest> requests = curve_requests(scene);
+  std::erase_if(requests, [](const CurveRequest& one) {
+    return std::holds_alternative<LimitName>(one.load);
+  });
+  return requests;
+}
+
+/// Those of one scene, each for an equal part of the time that is left. One that is refused, as it
+/// will be where it is solved for, was not begun.
+std::vector<Trial> try_curves(const ReducedModel& model, SceneDescription scene, double seconds) {
+  const std::vector<CurveRequest> requests = loaded_curves(scene);
+  const WayAlong way(model, scene);
+  std::vector<Trial> trials;
+  for (std::size_t n_left = requests.size(); n_left > 0 && !interrupt_requested(); --n_left) {
+    const double part = seconds / static_cast<double>(n_left);
+    scene.response->time_budget = part;
+    Trial& trial = trials.emplace_back();
+    try {
+      trial = try_curve(model, scene, requests[requests.size() - n_left], way, part);
+    } catch (const RefusedError&) {
+    }
+    seconds -= trial.seconds;
+  }
+  return trials;
+}
+
+}  // namespace
+
+ResponseSeconds tried_seconds(const ReducedModel& model, const SceneDescription& scene,
+                              const CurveEffects& effects, double seconds) {
+  ResponseSeconds told = response_seconds(scene, effects);
+  if (in_time(scene) || is_linear_study(scene)) return told;
+  const SceneDescription alone = without_search(scene);
+  CurveEffects unsearched = effects;
+  unsearched.searched_share = 0.0;
+  const double without = response_seconds(alone, unsearched).curves;
+  const std::vector<Trial> trials = try_curves(model, alone, seconds);
+  const auto n = static_cast<double>(trials.size());
+  const double of_one = without / std::max(1.0, n - effects.linear_curves);
+  double curves = 0.0;
+  double tried = 0.0;
+  double expected = 0.0;  // of what was tried
+  double folds = 0.0;
+  for (const Trial& trial : trials) {
+    curves += seconds_of(trial, of_one);
+    tried += trial.walked;
+    expected += begun_seconds(scene, effects, trial.evaluations, trial.points);
+    folds += static_cast<double>(trial.folds);
+  }
+  const bool tells = tried > least_trial && expected > 0.0;
+  const double others = tells ? tried / (expected * machine_slowness()) : 1.0;
+  const double search = others * search_beside_folds(folds / std::max(n, 1.0));
+  told.curves = curves + search * (told.curves - without);
+  for (double* stage : {&told.best_value, &told.bracket}) *stage *= others;
+  // Errors of a mesh are those of other models, which evaluate other contacts.
+  if (scene.contacts.empty()) told.errors *= others;
+  return told;
+}
+
+}  // namespace microslip::pipelines
