@@ -50,7 +50,7 @@ struct ResponseSeconds {
 [[nodiscard]] double begun_seconds(const SceneDescription& scene, const CurveEffects& effects,
                                    long n_evaluations, long n_points);
 
-/// Times as long a search takes beside a curve with so many folds, on either side of which it looks.
+/// Times as long a search takes beside a curve with so many folds: it looks on either side of each.
 [[nodiscard]] double search_beside_folds(double n_folds);
 
 /// A search for other solutions with every curve [s], where machine_slowness() is 1: whether it is
