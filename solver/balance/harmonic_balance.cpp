@@ -372,9 +372,8 @@ double HarmonicBalance::force_scale(double frequency) const {
   if (load == 0.0 || !scene_.contact) return load;
   const Eigen::VectorXd stuck = linear_response(frequency, stuck_stiffness_);
   if (!stuck.allFinite()) return load;
-  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(size(), size());
-  add_stiffness(stuck_stiffness_, 1.0, stiffness);
-  return std::max(load, (stiffness * stuck).norm());
+  const Eigen::Index n = scene_.n_modes();
+  return std::max(load, (stuck_stiffness_ * stuck.reshaped(n, stuck.size() / n)).norm());
 }
 
 double HarmonicBalance::work_error(const Harmonics& q, double frequency) {

@@ -27,6 +27,7 @@ struct Place {
   LocalPeak peak;
   double frequency = 0.0;
   bool is_told = false;  // the highest peak of the curve, else its highest end
+  double height = 1.0;   // over the highest
 };
 
 /// What the answer of a curve is read from: what is told of it, then what is higher or nearly so.
@@ -48,7 +49,14 @@ std::vector<Place> places_of(const Scene& scene, const ContinuationOptions& rang
     if (!counts || places.size() == most_places) break;
     if (&one != told) add(one);
   }
+  for (Place& place : places) place.height = place.peak.amplitude / high.front().point.amplitude;
   return places;
+}
+
+/// Changes of a lower place are told of the highest.
+ContinuationOptions range_of(const Place& place, ContinuationOptions range) {
+  range.harmonic_tolerance /= std::min(place.height, 1.0);
+  return range;
 }
 
 /// Within a share of the frequency; nullptr: none.
@@ -147,7 +155,6 @@ CurveHarmonics choose_harmonics(const Scene& scene, const ContinuationOptions& r
   ResponseCurve traced;
   HarmonicSet of_now = set;
   for (int traces = 0; traces <= most_traces; ++traces) {
-    PeakHarmonicsChoice choice(scene, range);
     chosen.settled = true;
     chosen.left_out = 0.0;
     chosen.known.clear();
@@ -158,10 +165,12 @@ CurveHarmonics choose_harmonics(const Scene& scene, const ContinuationOptions& r
       const auto distance = of_now == chosen.set
                                 ? distance_to(chosen.known, place.peak, range.harmonic_tolerance)
                                 : std::nullopt;
-      if (distance && *distance <= range.harmonic_tolerance) {
+      const ContinuationOptions of_place = range_of(place, range);
+      if (distance && *distance <= of_place.harmonic_tolerance) {
         chosen.left_out = std::max(chosen.left_out, *distance);
         continue;
       }
+      PeakHarmonicsChoice choice(scene, of_place);
       const PeakHarmonics found = choice.choose(of_now, place.peak, chosen.set);
       chosen.set = chosen.set.united(found.set.orders());
       chosen.left_out = std::max(chosen.left_out, found.left_out);
@@ -172,8 +181,8 @@ CurveHarmonics choose_harmonics(const Scene& scene, const ContinuationOptions& r
         chosen.is_peak = place.peak.place == PeakPlace::peak;
       }
       is_lost = is_lost || !found.peak;
+      count(chosen, choice.work());
     }
-    count(chosen, choice.work());
     if (!is_lost || traces == most_traces || is_stopped(range)) {
       if (now == &traced && of_now == chosen.set) chosen.traced = std::move(traced);
       return chosen;
@@ -202,7 +211,7 @@ CurveHarmonics check_harmonics(const Scene& scene, const ContinuationOptions& ra
                                    choice, set, place.peak);
     }
     const double left_out = distance ? *distance : choice.left_out(set, place.peak);
-    checked.left_out = std::max(checked.left_out, left_out);
+    checked.left_out = std::max(checked.left_out, left_out * place.height);
     for (ResponsePoint& point : curve.points) {
       if (point.frequency == place.frequency) point.harmonics_left_out = left_out;
     }

@@ -23,12 +23,15 @@ constexpr double added_down_to = 0.25;
 constexpr double may_be_pruned = 0.5;
 constexpr int fewest_first_ones = 3;
 constexpr double worth_trying = 8.0;  // times that, by the sum of estimates: signs may cancel
+constexpr double worth_trying_first = 40.0;  // the same, next to an internal resonance
 constexpr double of_frequency = 0.1;  // a resonance is narrow: its frequency is asked for closer
 constexpr double idle = 1e-3;         // less than this is not worth a confirmation
 constexpr std::size_t largest_block = 10;  // added at a time: estimates far away rank, no more
 constexpr std::size_t confirming_block = 4;
 constexpr int most_rounds = 15;
-constexpr double too_far = 4.0;  // amplitudes or widths: a set with a resonance moves a peak far
+// Amplitudes or widths: a set with a resonance moves a peak far; one that keeps it hardly does.
+constexpr double too_far = 4.0;
+constexpr double stays_within = 0.5;
 
 std::vector<int> beyond(const HarmonicSet& set, const Harmonics& force, double scale) {
   std::vector<int> orders;
@@ -122,11 +125,11 @@ bool PeakHarmonicsChoice::same(const LocalPeak& a, const LocalPeak& b, double to
 }
 
 std::optional<LocalPeak> PeakHarmonicsChoice::solved(const HarmonicSet& from, const LocalPeak& peak,
-                                                     const HarmonicSet& to) {
+                                                     const HarmonicSet& to, double farthest) {
   const HarmonicBalance coarse(scene_, from);
   HarmonicBalance richer(scene_, to);
   const LocalPeak start = embedded(peak, coarse, richer);
-  return level_point(richer, start, range_, work_, too_far);
+  return level_point(richer, start, range_, work_, farthest);
 }
 
 /// A peak that is far is nearer by steps: the lowest harmonic first.
@@ -136,7 +139,7 @@ std::optional<LocalPeak> PeakHarmonicsChoice::solved_one_by_one(HarmonicSet set,
   std::ranges::sort(orders);
   for (const int order : orders) {
     const HarmonicSet next = set.united({order});
-    std::optional<LocalPeak> there = solved(set, peak, next);
+    std::optional<LocalPeak> there = solved(set, peak, next, too_far);
     if (!there) return std::nullopt;
     set = next;
     peak = std::move(*there);
@@ -147,7 +150,7 @@ std::optional<LocalPeak> PeakHarmonicsChoice::solved_one_by_one(HarmonicSet set,
 PeakHarmonics PeakHarmonicsChoice::choose(const HarmonicSet& set, const LocalPeak& peak,
                                           const HarmonicSet& more) {
   PeakHarmonics result{set.united(more.orders()), peak};
-  if (result.set != set) result.peak = solved(set, peak, result.set);
+  if (result.set != set) result.peak = solved(set, peak, result.set, too_far);
   const PeakHarmonics fewest = result;
   settle(result);
   if (result.peak && !(result.richest.amplitude > 0.0)) {
@@ -160,8 +163,11 @@ PeakHarmonics PeakHarmonicsChoice::choose(const HarmonicSet& set, const LocalPea
   if (is_least && same(*rich.peak, *fewest.peak, allowed)) {
     return pruned_to(rich, fewest.set, *fewest.peak);
   }
-  prune(result, more);
-  try_first_ones(result, rich, more);
+  HarmonicBalance balance(scene_, rich.set);
+  const std::vector<DroppedHarmonic> dropped = dropped_harmonics(balance, *rich.peak);
+  ++work_.contact_evaluations;
+  try_first_ones(result, dropped, more);
+  prune(result, rich, dropped, more);
   return result;
 }
 
@@ -190,7 +196,7 @@ void PeakHarmonicsChoice::settle(PeakHarmonics& result) {
       return;
     }
     HarmonicSet larger = result.set.united(orders);
-    std::optional<LocalPeak> next = solved(result.set, *result.peak, larger);
+    std::optional<LocalPeak> next = solved(result.set, *result.peak, larger, too_far);
     if (!next) next = solved_one_by_one(result.set, *result.peak, orders);
     if (next && small) {
       result.confirmed = std::abs(next->amplitude - result.peak->amplitude) / next->amplitude;
@@ -208,18 +214,55 @@ void PeakHarmonicsChoice::settle(PeakHarmonics& result) {
 /// The peak without some of its harmonics, where it stays.
 std::optional<PeakHarmonics> PeakHarmonicsChoice::without(const PeakHarmonics& rich,
                                                           const HarmonicSet& fewer) {
-  std::optional<LocalPeak> peak = solved(rich.set, *rich.peak, fewer);
+  std::optional<LocalPeak> peak = solved(rich.set, *rich.peak, fewer, stays_within);
   if (!peak || !same(*rich.peak, *peak, may_be_pruned * range_.harmonic_tolerance)) return {};
   return pruned_to(rich, fewer, *peak);
 }
 
-/// Takes out as many as can be found by bisection.
-void PeakHarmonicsChoice::prune(PeakHarmonics& result, const HarmonicSet& least) {
-  const double allowed = may_be_pruned * range_.harmonic_tolerance;
+/// The first harmonics alone, as few as do: next to an internal resonance what one harmonic does is
+/// not told by its size. More may do less well than fewer there, so that they are tried upward, by
+/// a quarter more at a time, until some do; then by bisection.
+void PeakHarmonicsChoice::try_first_ones(PeakHarmonics& result,
+                                         const std::vector<DroppedHarmonic>& dropped,
+                                         const HarmonicSet& least) {
   const PeakHarmonics rich = result;
-  HarmonicBalance balance(scene_, rich.set);
-  const std::vector<DroppedHarmonic> dropped = dropped_harmonics(balance, *rich.peak);
-  ++work_.contact_evaluations;
+  const auto first = [&](int highest) {
+    return HarmonicSet(highest).united(least.orders()).united(least_.orders());
+  };
+  const auto do_first = [&](int highest) {
+    const HarmonicSet fewer = first(highest);
+    if (fewer == result.set) return true;
+    std::optional<PeakHarmonics> there = without(rich, fewer);
+    if (there) result = std::move(*there);
+    return there.has_value();
+  };
+  const auto is_stopped = [&] { return range_.stop && range_.stop(); };
+  const auto is_hopeless = [&](int highest) {
+    double sum = 0.0;
+    const HarmonicSet kept = first(highest);
+    for (const DroppedHarmonic& one : dropped) {
+      if (!kept.contains(one.order)) sum += std::abs(one.amplitude);
+    }
+    return sum > worth_trying_first * may_be_pruned * range_.harmonic_tolerance;
+  };
+  int enough = fewest_first_ones;
+  while (enough < rich.set.highest() && is_hopeless(enough)) ++enough;
+  int too_few = enough - 1;
+  while (!is_stopped() && first(enough).count() < rich.set.count() && !do_first(enough)) {
+    too_few = std::exchange(enough, enough + std::max(1, enough / 4));
+  }
+  if (result.set == rich.set) return;
+  while (!is_stopped() && enough - too_few > 1) {
+    const int highest = (too_few + enough) / 2;
+    (do_first(highest) ? enough : too_few) = highest;
+  }
+}
+
+/// Takes out of the richest set as many as can be found by bisection, more than are out already.
+void PeakHarmonicsChoice::prune(PeakHarmonics& result, const PeakHarmonics& rich,
+                                const std::vector<DroppedHarmonic>& dropped,
+                                const HarmonicSet& least) {
+  const double allowed = may_be_pruned * range_.harmonic_tolerance;
   std::vector<int> order;  // the least first
   std::size_t sure = 0;    // to be taken out
   double sum = 0.0;
@@ -230,10 +273,9 @@ void PeakHarmonicsChoice::prune(PeakHarmonics& result, const HarmonicSet& least)
     order.push_back(one.order);
     if (sum <= allowed) sure = order.size();
   }
-  std::size_t out = 0;                      // can go
-  std::size_t too_many = order.size() + 1;  // cannot
-  for (std::size_t n = std::max<std::size_t>(sure, 1); n > out && n < too_many;
-       n = (out + too_many) / 2) {
+  auto out = static_cast<std::size_t>(rich.set.count() - result.set.count());  // or more can go
+  std::size_t too_many = order.size() + 1;                                     // cannot
+  for (std::size_t n = std::max(sure, out + 1); n > out && n < too_many; n = (out + too_many) / 2) {
     if (range_.stop && range_.stop()) return;
     std::vector<int> kept = rich.set.orders();
     const auto end = order.begin() + static_cast<std::ptrdiff_t>(n);
@@ -241,25 +283,6 @@ void PeakHarmonicsChoice::prune(PeakHarmonics& result, const HarmonicSet& least)
     std::optional<PeakHarmonics> fewer = without(rich, HarmonicSet(std::move(kept)));
     if (fewer) result = std::move(*fewer);
     (fewer ? out : too_many) = n;
-  }
-}
-
-/// The first harmonics alone, as few as do: next to an internal resonance what one harmonic does is
-/// not told by its size. By bisection, where the most that would be a gain do.
-void PeakHarmonicsChoice::try_first_ones(PeakHarmonics& result, const PeakHarmonics& rich,
-                                         const HarmonicSet& least) {
-  const auto first = [&](int highest) {
-    return HarmonicSet(highest).united(least.orders()).united(least_.orders());
-  };
-  int too_few = fewest_first_ones - 1;
-  int enough = rich.set.highest();
-  while (enough > too_few && first(enough).count() >= result.set.count()) --enough;
-  for (int highest = enough; highest > too_few; highest = (too_few + enough) / 2) {
-    if (range_.stop && range_.stop()) return;
-    auto fewer = without(rich, first(highest));
-    if (!fewer && highest == enough) return;
-    if (fewer) result = std::move(*fewer);
-    (fewer ? enough : too_few) = highest;
   }
 }
 

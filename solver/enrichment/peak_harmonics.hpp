@@ -12,14 +12,15 @@
 ///   solve      the peak again, by Newton's method from the embedding; then estimate anew
 ///   confirm    once what is left out does less than half the tolerance, the largest few of it are
 ///              solved for too. Only a peak that stays where it was, to the tolerance, is believed
-///   prune      as many go again as the other half of the tolerance allows, those that do least
-///              first, the peak being solved without them: what they do together is known then,
-///              their signs included. Or the first few alone, where these are fewer
+///   prune      as many go again as the other half of the tolerance allows, the peak being solved
+///              without them: what they do together is known then, their signs included. All but
+///              the first few, or, where more can go so, those that do least
 #pragma once
 
 #include <optional>
 #include <vector>
 
+#include "solver/enrichment/dropped_harmonics.hpp"
 #include "solver/enrichment/enrichment.hpp"
 #include "solver/peak/local_peak.hpp"
 #include "solver/response_curve.hpp"
@@ -69,13 +70,15 @@ class PeakHarmonicsChoice {
   [[nodiscard]] std::vector<int> block(const Estimate& estimate) const;
   [[nodiscard]] bool same(const LocalPeak& a, const LocalPeak& b, double tolerance) const;
   [[nodiscard]] std::optional<LocalPeak> solved(const HarmonicSet& from, const LocalPeak& peak,
-                                                const HarmonicSet& to);
+                                                const HarmonicSet& to, double farthest);
   [[nodiscard]] std::optional<LocalPeak> solved_one_by_one(HarmonicSet set, LocalPeak peak,
                                                            std::vector<int> orders);
   [[nodiscard]] SettledPeak told(const HarmonicSet& set, const LocalPeak& peak, double left_out);
   void settle(PeakHarmonics& result);
-  void prune(PeakHarmonics& result, const HarmonicSet& least);
-  void try_first_ones(PeakHarmonics& result, const PeakHarmonics& rich, const HarmonicSet& least);
+  void try_first_ones(PeakHarmonics& result, const std::vector<DroppedHarmonic>& dropped,
+                      const HarmonicSet& least);
+  void prune(PeakHarmonics& result, const PeakHarmonics& rich,
+             const std::vector<DroppedHarmonic>& dropped, const HarmonicSet& least);
   [[nodiscard]] std::optional<PeakHarmonics> without(const PeakHarmonics& rich,
                                                      const HarmonicSet& fewer);
 
