@@ -138,7 +138,7 @@ EffectRecord record_of(const EffectRow& row, const EffectFacts& facts) {
     effect.threshold = decision.threshold.value_or(row.threshold);
   }
   const bool can_have = facts.has_contact && decision.can_be;
-  if (effect.simulated == no && can_have) {
+  if (effect.simulated != undecided && can_have) {
     effect.reason += fmt::format("; without it {}", row.lost);
   }
   effect.seconds = cost_of(row.name, facts);

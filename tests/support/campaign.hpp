@@ -1,7 +1,8 @@
 /// @file
 /// Campaigns: tests over many random states or scenes. Every run of the tests takes a tenth of
 /// each, always the same one; all are taken where the environment says MICROSLIP_CAMPAIGNS=whole,
-/// as share/scripts/campaigns.sh does.
+/// as share/scripts/campaigns.sh does, and beyond those as many times more as
+/// MICROSLIP_CAMPAIGN_TIMES says.
 #pragma once
 
 #include <algorithm>
@@ -21,10 +22,21 @@ namespace microslip::tests {
   throw std::invalid_argument(std::string("MICROSLIP_CAMPAIGNS is ") + asked + ", not whole");
 }
 
+/// Above 1: for a count that takes hours.
+[[nodiscard]] inline int campaign_times() {
+  const char* asked = std::getenv("MICROSLIP_CAMPAIGN_TIMES");
+  const int times = asked == nullptr ? 1 : std::atoi(asked);
+  if (times < 1) {
+    throw std::invalid_argument(std::string("MICROSLIP_CAMPAIGN_TIMES is ") + asked +
+                                ", not a number of times");
+  }
+  return times;
+}
+
 /// How many to take of the cases of a campaign, from the first on.
 /// @param least  as many as it takes to meet every kind of case.
 [[nodiscard]] inline int campaign_size(int whole, int least = 1) {
-  const int n = whole_campaigns() ? whole : std::clamp(whole / 10, least, whole);
+  const int n = whole_campaigns() ? whole * campaign_times() : std::clamp(whole / 10, least, whole);
   std::printf("campaign: cases 0 to %d of %d\n", n - 1, whole);
   return n;
 }
