@@ -21,6 +21,8 @@ namespace {
 
 /// Else too short to tell what an evaluation takes.
 constexpr double least_trial = 0.1;  // [s]
+/// Of the contact, for a first solution: where they take longer nothing is begun.
+constexpr long first_evaluations = 30;
 
 double processor_seconds() {
   return static_cast<double>(std::clock()) / static_cast<double>(CLOCKS_PER_SEC);
@@ -134,6 +136,7 @@ ResponseSeconds tried_seconds(const ReducedModel& model, const SceneDescription&
                               const CurveEffects& effects, double seconds) {
   ResponseSeconds told = response_seconds(scene, effects);
   if (in_time(scene) || is_linear_study(scene)) return told;
+  if (begun_seconds(scene, effects, first_evaluations, 0) > seconds) return told;
   const SceneDescription alone = without_search(scene);
   CurveEffects unsearched = effects;
   unsearched.searched_share = 0.0;

@@ -13,10 +13,10 @@ namespace microslip::pipelines {
 /// come, weighed with what response_seconds() says. A search for other branches, a best value and,
 /// of scenes without a mesh, errors are multiplied by what an evaluation of the contact took over
 /// what it was said to take. Motions in time are not begun, nor are curves that cannot be solved
-/// for: of those the forecast stands.
+/// for, or whose first solution takes longer than the time: of those the forecast stands.
 /// @param scene    with [response].
 /// @param seconds  of processor time that the curves are traced, all together.
-/// @return  [s]; where machine_slowness() is what it is.
+/// @return  [s] on this machine.
 [[nodiscard]] ResponseSeconds tried_seconds(const ReducedModel& model,
                                             const SceneDescription& scene,
                                             const CurveEffects& effects, double seconds);
