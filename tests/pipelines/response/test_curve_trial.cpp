@@ -66,7 +66,7 @@ double taken(const Study& one) {
 TEST(CurveTrial, OfACurveToItsEndIsWhatItTakes) {
   const Study one = study();
   const double truth = taken(one);
-  constexpr double others = 2.0;  // what other programs make of the same work
+  constexpr double others = 3.0;  // what other programs make of the same work
   EXPECT_LT(response_seconds(one.scene, one.effects).curves, truth / others);
   const double told = tried(one, 1e3).curves;
   EXPECT_LT(told, others * truth);
@@ -86,7 +86,7 @@ TEST(CurveTrial, OfABeginningIsMoreThanIt) {
 TEST(CurveTrial, MultipliesWhatIsMadeOfEvaluations) {
   const Study one = study({"response.optimum=preload", "response.optimum_range=[0.1, 10]"});
   const ResponseSeconds told = response_seconds(one.scene, one.effects);
-  const ResponseSeconds measured = tried(one, 0.3);
+  const ResponseSeconds measured = tried(one, 1e3);
   ASSERT_GT(told.best_value, 0.0);
   EXPECT_NE(measured.best_value, told.best_value);
   EXPECT_NEAR(measured.best_value / told.best_value, measured.bracket / told.bracket, 1e-9);
