@@ -86,6 +86,7 @@ struct SettledPeak {
   double amplitude = 0.0;          ///< [m]; 0: none
   double left_out = 0.0;           ///< Σ |δA| / A of harmonics beyond, estimated
   double dissipated_energy = 0.0;  ///< by friction in a period [J]
+  bool is_end = false;             ///< of the range, where it is no peak
 };
 
 struct ResponseCurve {

@@ -46,8 +46,8 @@ auto members(Is<DetachedBranch> auto& value) {
   return std::tie(points, closed);
 }
 auto members(Is<SettledPeak> auto& value) {
-  auto& [frequency, amplitude, left_out, energy] = value;
-  return std::tie(frequency, amplitude, left_out, energy);
+  auto& [frequency, amplitude, left_out, energy, is_end] = value;
+  return std::tie(frequency, amplitude, left_out, energy, is_end);
 }
 auto members(Is<ResponseCurve> auto& value) {
   auto& [points, complete, diagnosis, message, certificate, log, detached, n_starts, iterations,

@@ -64,6 +64,27 @@ bool is_unstable(const solver::ResponsePoint& point) {
   return point.stability == solver::Stability::unstable || point.mark == solver::PointMark::fold;
 }
 
+/// By more than rounding. @param point  of a branch beside the curve, say.
+bool is_above(const solver::ResponsePoint& point, const solver::ResponseCurve& curve) {
+  constexpr double clearly = 1.001;
+  return std::ranges::all_of(curve.points, [&](const solver::ResponsePoint& own) {
+    return point.amplitude > clearly * own.amplitude;
+  });
+}
+
+/// The peak of a curve is the highest one that is marked; an end of the range may be higher.
+std::string largest_text(const solver::ResponseCurve& curve, const solver::ResponsePoint& peak) {
+  const auto highest =
+      std::ranges::max_element(curve.points, {}, &solver::ResponsePoint::amplitude);
+  constexpr double clearly = 1.001;
+  if (!(highest->amplitude > clearly * peak.amplitude)) {
+    return fmt::format("; largest {:.6g} m at {:.6g} Hz", peak.amplitude, to_hz * peak.frequency);
+  }
+  return fmt::format("; highest peak {:.6g} m at {:.6g} Hz, largest {:.6g} m at {:.6g} Hz",
+                     peak.amplitude, to_hz * peak.frequency, highest->amplitude,
+                     to_hz * highest->frequency);
+}
+
 }  // namespace
 
 std::vector<std::string> modes_text(const StructureModes& modes) {
@@ -107,9 +128,15 @@ std::string outcome_text(const CurveResult& result) {
           : fmt::format("incomplete: {}: {}", solver::to_string(curve.diagnosis), curve.message);
   return fmt::format("curve {}: {} points, {} iterations, {:.2f} s, {}{}", result.name,
                      curve.points.size(), curve.iterations, curve.seconds, outcome,
-                     peak != nullptr ? fmt::format("; largest {:.6g} m at {:.6g} Hz",
-                                                   peak->amplitude, to_hz * peak->frequency)
-                                     : std::string());
+                     peak != nullptr ? largest_text(curve, *peak) : std::string());
+}
+
+bool has_higher_branch(const CurveResult& result) {
+  return std::ranges::any_of(result.curve.detached, [&](const solver::DetachedBranch& branch) {
+    return std::ranges::any_of(branch.points, [&](const solver::ResponsePoint& point) {
+      return point.stability != solver::Stability::unstable && is_above(point, result.curve);
+    });
+  });
 }
 
 std::vector<std::string> detached_text(const CurveResult& result) {
@@ -119,11 +146,14 @@ std::vector<std::string> detached_text(const CurveResult& result) {
         std::ranges::max_element(branch.points, {}, &solver::ResponsePoint::amplitude);
     if (highest == branch.points.end()) continue;
     lines.push_back(fmt::format(
-        "curve {}: beside it {}; largest {:.6g} m at {:.6g} Hz{}", result.name,
+        "curve {}: beside it {}; largest {:.6g} m at {:.6g} Hz{}{}", result.name,
         branch.points.size() == 1 ? "another solution"
                                   : fmt::format("a branch of {} points", branch.points.size()),
         highest->amplitude, to_hz * highest->frequency,
-        highest->stability == solver::Stability::unstable ? ", unstable there" : ""));
+        highest->stability == solver::Stability::unstable ? ", unstable there" : "",
+        is_above(*highest, result.curve)
+            ? ", above the curve, whose peak and bar know nothing of it"
+            : ""));
   }
   return lines;
 }

@@ -23,6 +23,10 @@ namespace microslip::pipelines {
 /// A line for each branch or solution that was found beside the curve.
 [[nodiscard]] std::vector<std::string> detached_text(const CurveResult& result);
 
+/// One of those rises above the curve, with points that are not known to be unstable: what is told
+/// of the curve is not the most that may be seen.
+[[nodiscard]] bool has_higher_branch(const CurveResult& result);
+
 /// Where every solution found is unstable, detached ones included: the motion there has another
 /// period than the force, or none. Empty: nowhere.
 [[nodiscard]] std::string restless_text(const CurveResult& result);

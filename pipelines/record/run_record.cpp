@@ -414,7 +414,10 @@ void RunRecord::keep_curve(const CurveResult& result, const ReducedModel& model)
   if (curve.complete && !curve.message.empty()) {
     progress_.warning(fmt::format("curve {}: {}", result.name, curve.message));
   }
-  for (const std::string& line : detached_text(result)) progress_.info(line);
+  const bool warns = has_higher_branch(result) && !refines_;
+  for (const std::string& line : detached_text(result)) {
+    warns ? progress_.warning(line) : progress_.info(line);
+  }
   if (!curve.certificate.empty())
     progress_.info(fmt::format("curve {}: {}", result.name, curve.certificate));
   progress_.settle(result.name, curve.points);

@@ -68,6 +68,7 @@ struct Trial {
   long points = 0;
   long folds = 0;
   bool complete = false;
+  bool is_linear = false;  // proved
 };
 
 Trial try_curve(const ReducedModel& model, const SceneDescription& scene,
@@ -84,7 +85,9 @@ Trial try_curve(const ReducedModel& model, const SceneDescription& scene,
   };
   const CurveResult result = trace_curve(model, scene, request, observe);
   trial.seconds = spent();
+  if (trial.points == 0) trial.walked = trial.seconds;  // few harmonics, and a choice of more
   trial.evaluations = result.curve.contact_evaluations;
+  trial.is_linear = !result.curve.certificate.empty();
   using enum solver::Diagnosis;
   trial.complete = result.curve.diagnosis != interrupted && result.curve.diagnosis != budget &&
                    !result.lacks_time;
@@ -92,11 +95,14 @@ Trial try_curve(const ReducedModel& model, const SceneDescription& scene,
 }
 
 /// Of a whole curve. The pace of a beginning says little. @param before  what it was forecast to
-/// take.
-double seconds_of(const Trial& trial, double before) {
+/// take. @param slowness  as measured.
+double seconds_of(const Trial& trial, double before, double slowness) {
   if (trial.complete) return trial.seconds;
   const double on_the_way = trial.seconds - trial.before_first_point;
-  if (!(trial.share > 0.0) || !(on_the_way > 0.0)) return std::max(before, 2.0 * trial.seconds);
+  constexpr double beside_a_choice = 3.0;  // of harmonics, about
+  if (!(trial.share > 0.0) || !(on_the_way > 0.0)) {
+    return std::max(slowness * before, beside_a_choice * trial.seconds);
+  }
   const double by_pace = on_the_way / trial.share;
   const double of_way = std::max(before - trial.before_first_point, on_the_way);
   const double weight = std::cbrt(trial.share);
@@ -133,6 +139,26 @@ std::vector<Trial> try_curves(const ReducedModel& model, SceneDescription scene,
   return trials;
 }
 
+/// What an evaluation of the contact took over what it was said to take.
+double slowness_of(const std::vector<Trial>& trials, const SceneDescription& scene,
+                   const CurveEffects& effects) {
+  double tried = 0.0;
+  double expected = 0.0;
+  for (const Trial& trial : trials) {
+    tried += trial.walked;
+    expected += begun_seconds(scene, effects, trial.evaluations, trial.points);
+  }
+  const bool tells = tried > least_trial && expected > 0.0;
+  return tells ? tried / (expected * machine_slowness()) : 1.0;
+}
+
+/// Folds of a curve, of those that were begun.
+double mean_folds(const std::vector<Trial>& trials) {
+  double folds = 0.0;
+  for (const Trial& trial : trials) folds += static_cast<double>(trial.folds);
+  return folds / std::max(static_cast<double>(trials.size()), 1.0);
+}
+
 }  // namespace
 
 ResponseSeconds tried_seconds(const ReducedModel& model, const SceneDescription& scene,
@@ -146,24 +172,21 @@ ResponseSeconds tried_seconds(const ReducedModel& model, const SceneDescription&
   const double without = response_seconds(alone, unsearched).curves;
   const std::vector<Trial> trials = try_curves(model, alone, seconds);
   const auto n = static_cast<double>(trials.size());
-  const double of_one = without / std::max(1.0, n - effects.linear_curves);
-  double curves = 0.0;
-  double tried = 0.0;
-  double expected = 0.0;  // of what was tried
-  double folds = 0.0;
+  const double slowness = slowness_of(trials, scene, effects);
+  const double search =
+      slowness * search_beside_folds(mean_folds(trials)) * (told.curves - without);
+  told.curves = search;
   for (const Trial& trial : trials) {
-    curves += seconds_of(trial, of_one);
-    tried += trial.walked;
-    expected += begun_seconds(scene, effects, trial.evaluations, trial.points);
-    folds += static_cast<double>(trial.folds);
+    told.curves += seconds_of(trial, without / std::max(1.0, n - effects.linear_curves), slowness);
   }
-  const bool tells = tried > least_trial && expected > 0.0;
-  const double others = tells ? tried / (expected * machine_slowness()) : 1.0;
-  const double search = others * search_beside_folds(folds / std::max(n, 1.0));
-  told.curves = curves + search * (told.curves - without);
-  for (double* stage : {&told.best_value, &told.bracket}) *stage *= others;
+  CurveEffects proved = effects;
+  proved.linear_curves = static_cast<int>(std::ranges::count_if(trials, &Trial::is_linear));
+  if (proved.linear_curves > effects.linear_curves) {
+    told.errors = response_seconds(scene, proved).errors;
+  }
+  for (double* stage : {&told.best_value, &told.bracket}) *stage *= slowness;
   // Errors of a mesh are those of other models, which evaluate other contacts.
-  if (scene.contacts.empty()) told.errors *= others;
+  if (scene.contacts.empty()) told.errors *= slowness;
   return told;
 }
 

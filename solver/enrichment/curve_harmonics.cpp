@@ -59,14 +59,14 @@ ContinuationOptions range_of(const Place& place, ContinuationOptions range) {
   return range;
 }
 
-/// Within a share of the frequency; nullptr: none.
-const SettledPeak* nearest_of(const std::vector<SettledPeak>& known, double frequency,
+/// Of its kind, a peak or an end, within a share of the frequency; nullptr: none.
+const SettledPeak* nearest_of(const std::vector<SettledPeak>& known, const LocalPeak& peak,
                               double share) {
   const SettledPeak* nearest = nullptr;
   double least = share;
   for (const SettledPeak& one : known) {
-    const double shift = std::abs(one.frequency / frequency - 1.0);
-    if (shift > least) continue;
+    const double shift = std::abs(one.frequency / peak.point.parameter - 1.0);
+    if (shift > least || one.is_end != (peak.place == PeakPlace::range_end)) continue;
     least = shift;
     nearest = &one;
   }
@@ -77,7 +77,7 @@ const SettledPeak* nearest_of(const std::vector<SettledPeak>& known, double freq
 /// nearest in frequency. Empty: none is near.
 std::optional<double> distance_to(const std::vector<SettledPeak>& known, const LocalPeak& peak,
                                   double tolerance) {
-  const SettledPeak* nearest = nearest_of(known, peak.point.parameter, tolerance);
+  const SettledPeak* nearest = nearest_of(known, peak, tolerance);
   if (nearest == nullptr) return std::nullopt;
   return std::abs(nearest->amplitude / peak.amplitude - 1.0) + nearest->left_out;
 }
@@ -178,7 +178,7 @@ CurveHarmonics choose_harmonics(const Scene& scene, const ContinuationOptions& r
       if (found.peak) chosen.known.push_back(found.richest);
       if (found.peak && place.is_told) {
         chosen.highest = found.richest;
-        chosen.is_peak = place.peak.place == PeakPlace::peak;
+        chosen.is_peak = found.peak->place == PeakPlace::peak;
       }
       is_lost = is_lost || !found.peak;
       count(chosen, choice.work());
@@ -207,8 +207,8 @@ CurveHarmonics check_harmonics(const Scene& scene, const ContinuationOptions& ra
   for (const Place& place : places_of(scene, range, set, curve)) {
     const std::optional<double> distance = distance_to(known, place.peak, range.harmonic_tolerance);
     if (place.is_told && !known.empty()) {
-      checked.highest = settled_at(nearest_of(known, place.frequency, range.harmonic_tolerance),
-                                   choice, set, place.peak);
+      checked.highest = settled_at(nearest_of(known, place.peak, range.harmonic_tolerance), choice,
+                                   set, place.peak);
     }
     const double left_out = distance ? *distance : choice.left_out(set, place.peak);
     checked.left_out = std::max(checked.left_out, left_out * place.height);

@@ -38,7 +38,17 @@ class Climb {
     std::optional<Step> first = solved(start_.point, border_of(start_), start_.tangent);
     if (!first) return std::nullopt;
     now_ = *first;
-    if (start_.place == PeakPlace::range_end) return result();
+    if (start_.place != PeakPlace::range_end) return climbed();
+    const LocalPeak end = result();
+    if (!rises_inward()) return end;
+    std::optional<LocalPeak> peak = climbed();
+    if (!peak || !(peak->amplitude > end.amplitude)) return end;
+    peak->place = PeakPlace::peak;
+    return peak;
+  }
+
+ private:
+  std::optional<LocalPeak> climbed() {
     for (int i = 0; i < most_steps; ++i) {
       if (is_stopped()) return std::nullopt;
       if (std::abs(now_.slope) <= level) return result();
@@ -49,8 +59,16 @@ class Climb {
     return std::nullopt;
   }
 
- private:
   [[nodiscard]] bool is_stopped() const { return range_.stop && range_.stop(); }
+
+  /// The end of a range is the highest place no longer: its peak lies within.
+  [[nodiscard]] bool rises_inward() const {
+    const auto [low, high] = std::minmax(range_.frequency_begin, range_.frequency_end);
+    if (low == high) return false;
+    const bool is_lower_end = now_.point.parameter - low < high - now_.point.parameter;
+    const double by_frequency = now_.slope * now_.tangent.parameter;
+    return std::abs(now_.slope) > level && (is_lower_end ? by_frequency : -by_frequency) > 0.0;
+  }
 
   [[nodiscard]] bool is_bracketed() const { return rising_ && falling_; }
 

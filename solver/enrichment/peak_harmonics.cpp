@@ -25,7 +25,7 @@ constexpr int fewest_first_ones = 3;
 constexpr double worth_trying = 8.0;  // times that, by the sum of estimates: signs may cancel
 constexpr double worth_trying_first = 40.0;  // the same, next to an internal resonance
 constexpr double of_frequency = 0.1;  // a resonance is narrow: its frequency is asked for closer
-constexpr double idle = 1e-3;         // less than this is not worth a confirmation
+constexpr double idle = 1e-6;         // of the amplitude: less is not worth a confirmation
 constexpr std::size_t largest_block = 10;  // added at a time: estimates far away rank, no more
 constexpr std::size_t confirming_block = 4;
 constexpr int most_rounds = 15;
@@ -112,7 +112,7 @@ std::vector<int> PeakHarmonicsChoice::wanted(const Estimate& estimate) const {
 std::vector<int> PeakHarmonicsChoice::block(const Estimate& estimate) const {
   std::vector<int> orders;
   for (const RicherShare& share : estimate.shares) {
-    const bool counts = std::abs(share.amplitude) > idle * range_.harmonic_tolerance;
+    const bool counts = std::abs(share.amplitude) > idle;
     if (counts && orders.size() < confirming_block) orders.push_back(share.order);
   }
   return orders;
@@ -176,7 +176,8 @@ SettledPeak PeakHarmonicsChoice::told(const HarmonicSet& set, const LocalPeak& p
   HarmonicBalance balance(scene_, set);
   ++work_.contact_evaluations;
   const PeriodEnergy energy = period_energy(balance, peak.point.x, peak.point.parameter);
-  return {peak.point.parameter, peak.amplitude, left_out, energy.friction};
+  return {peak.point.parameter, peak.amplitude, left_out, energy.friction,
+          peak.place == PeakPlace::range_end};
 }
 
 /// Adds harmonics until what is left out does little and a block of it, solved for, confirms this.

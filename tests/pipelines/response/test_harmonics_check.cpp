@@ -25,7 +25,7 @@ std::string list(int n, const auto& entry) {
 }
 
 /// A point that slips; modes from 20 Hz on.
-std::string scene_with(int n_modes, int harmonics) {
+std::string scene_with(int n_modes, const std::string& harmonics, double end_hz = 24.0) {
   const auto falling = [](int i) { return 1.0 / (1 + i); };
   std::string text = "[model]\nkind = \"modal\"\n[modal]\ndamping_ratio = 0.01\n";
   text += "frequency = " + list(n_modes, [](int i) { return 20.0 + 26.0 * i; }) + "\n";
@@ -36,8 +36,9 @@ std::string scene_with(int n_modes, int harmonics) {
   for (int i = 0; i < n_modes; ++i) {
     text += "phi_u_" + std::to_string(i + 1) + " = " + std::to_string(0.5 * falling(i)) + "\n";
   }
-  text += "phi_v_1 = 0.2\n[response]\nfrequency = [21, 24]\nharmonics = ";
-  return text + std::to_string(harmonics) + "\n";
+  text += "phi_v_1 = 0.2\n[response]\nfrequency = [21, " + std::to_string(end_hz);
+  text += "]\nharmonics = ";
+  return text + harmonics + "\n";
 }
 
 CurveResult traced(const std::string& text) {
@@ -49,13 +50,34 @@ CurveResult traced(const std::string& text) {
 
 TEST(HarmonicsCheck, TellsWhatMoreDoWhateverTheNumberOfModes) {
   for (const int n_modes : {4, 70}) {
-    const CurveResult three = traced(scene_with(n_modes, 3));
-    const CurveResult eleven = traced(scene_with(n_modes, 11));
+    const CurveResult three = traced(scene_with(n_modes, "3"));
+    const CurveResult eleven = traced(scene_with(n_modes, "11"));
     ASSERT_TRUE(three.richer && three.richer->change) << n_modes << " modes";
     EXPECT_GT(std::abs(*three.richer->change), 1e-4) << n_modes << " modes";
     const double own = highest_peak(eleven.curve)->amplitude;
     EXPECT_NEAR(three.richer->amplitude, own, 1e-6 * own) << n_modes << " modes";
   }
+}
+
+// With one harmonic the peak lies at 22.19 Hz, with nine at 22.095: of a range that ends between
+// them the end is the highest place with one, and no longer with more.
+TEST(HarmonicsCheck, FindsAPeakInsideWhereTheEndOfTheRangeWasTheHighest) {
+  const CurveResult one = traced(scene_with(4, "1", 22.15));
+  const double truth = highest_peak(traced(scene_with(4, "9")).curve)->frequency;
+  ASSERT_NEAR(one.curve.points.back().frequency, 2.0 * std::numbers::pi * 22.15, 1e-6);
+  ASSERT_TRUE(one.richer && one.richer->change);
+  EXPECT_NEAR(one.richer->frequency, truth, 1e-5 * truth);
+}
+
+// The end was settled with more harmonics as well: what is told of the peak is not taken from
+// there.
+TEST(HarmonicsCheck, TellsAPeakByAPeakAndNotByTheEndOfTheRange) {
+  const CurveResult chosen = traced(scene_with(4, "\"auto\"", 22.15));
+  const double truth = highest_peak(traced(scene_with(4, "9")).curve)->frequency;
+  const solver::SettledPeak& settled = chosen.curve.settled_peak;
+  ASSERT_GT(settled.amplitude, 0.0);
+  EXPECT_FALSE(settled.is_end);
+  EXPECT_NEAR(settled.frequency, truth, 1e-4 * truth);
 }
 
 // Mode 2, hardly damped, at three times the peak, which becomes two with harmonic 3: the lower one
@@ -115,7 +137,7 @@ TEST(ChosenHarmonics, HaveTheHighestPeakWhereverItResonates) {
 // Where one harmonic is enough nothing is pruned; what was solved for to confirm that tells how far
 // the frequency and the energy of the peak are off.
 TEST(ChosenHarmonics, TellTheFrequencyAndTheEnergyOfThePeak) {
-  const std::string text = scene_with(4, 15);
+  const std::string text = scene_with(4, "15");
   const auto harmonics = text.find("harmonics = 15");
   const CurveResult chosen =
       traced(text.substr(0, harmonics) + "harmonics = \"auto\"\nharmonic_tolerance = 0.1\n");
