@@ -1,9 +1,14 @@
 #include "pipelines/model/scene_warnings.hpp"
 
 #include <algorithm>
+#include <complex>
+#include <map>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <variant>
+
+#include <Eigen/Core>
 
 #include <fmt/format.h>
 
@@ -16,8 +21,17 @@ bool is_excited(const SceneDescription& scene) {
     return modal->force_sine.cwiseAbs().maxCoeff() > 0.0 ||
            modal->force_cosine.cwiseAbs().maxCoeff() > 0.0;
   }
-  return std::ranges::any_of(scene.forces,
-                             [](const ForceDescription& force) { return force.amplitude != 0.0; });
+  std::map<std::string, Eigen::Vector3cd> sums;  // forces at one place may cancel
+  double size = 0.0;
+  for (const ForceDescription& force : scene.forces) {
+    Eigen::Vector3cd& sum = sums.try_emplace(force.at, Eigen::Vector3cd::Zero()).first->second;
+    const double phase = force.phase_deg * std::numbers::pi / 180.0;
+    sum += std::polar(1.0, phase) * (force.amplitude * force.direction);
+    size = std::max(size, std::abs(force.amplitude));
+  }
+  constexpr double rounding = 1e-12;
+  return std::ranges::any_of(sums,
+                             [&](const auto& one) { return one.second.norm() > rounding * size; });
 }
 
 /// A mode that vibrates without damping.

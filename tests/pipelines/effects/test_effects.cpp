@@ -683,6 +683,23 @@ TEST(Effects, AKineticCoefficientAboveTheStaticIsWarnedOf) {
   EXPECT_TRUE(warnings("{ law = \"hyperbolic\", static = 0.5, rate = 1 }").empty());
 }
 
+TEST(Effects, ForcesThatCancelAreWarnedOf) {
+  const auto warns = [](const std::string& direction, const std::string& phase) {
+    const std::string forces =
+        "excitation.forces=[{ at = \"B\", direction = [1, 0, 0], amplitude = \"1 N\" }, "
+        "{ at = \"B\", direction = " +
+        direction + ", amplitude = \"1 N\", phase = " + phase + " }]";
+    const auto all = scene_warnings(read_scene(MICROSLIP_SCENES "/blade_to_ground.toml", {forces}));
+    return std::ranges::any_of(all, [](const std::string& one) {
+      return one.find("no force excites") != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(warns("[-1, 0, 0]", "0"));
+  EXPECT_TRUE(warns("[1, 0, 0]", "180"));
+  EXPECT_FALSE(warns("[-1, 0, 0]", "90"));
+  EXPECT_FALSE(warns("[0, -1, 0]", "0"));
+}
+
 TEST(Effects, HarmonicsBesideIntegrationInTimeAreWarnedOf) {
   const auto warnings = [](const Overrides& overrides) {
     return scene_warnings(parse_scene(text, "scene.toml", "/nowhere", overrides));
