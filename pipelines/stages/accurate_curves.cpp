@@ -88,6 +88,13 @@ std::string seconds_text(double seconds) {
   return fmt::format("{:.0f} s", unit * std::round(seconds / unit));
 }
 
+/// With more digits where two would say that what was asked for is reached, and it is not.
+std::string reached_percent(const AccuracySummary& accuracy) {
+  std::string text = percent_text(accuracy.reached);
+  const bool hides = accuracy.reached > accuracy.asked && text == percent_text(accuracy.asked);
+  return hides ? fmt::format("{:.4g} %", 100.0 * accuracy.reached) : text;
+}
+
 std::string reached_text(const AccuracySummary& accuracy) {
   if (!std::isfinite(accuracy.reached)) {
     std::string text =
@@ -97,7 +104,7 @@ std::string reached_text(const AccuracySummary& accuracy) {
                        fmt::join(accuracy.not_known, ", "));
   }
   std::string text = fmt::format("asked for {}, reached {}", percent_text(accuracy.asked),
-                                 percent_text(accuracy.reached));
+                                 reached_percent(accuracy));
   if (!accuracy.not_known.empty()) {
     text += fmt::format(", not counting {}", fmt::join(accuracy.not_known, ", "));
   }
