@@ -148,8 +148,10 @@ double slowness_of(const std::vector<Trial>& trials, const SceneDescription& sce
     tried += trial.walked;
     expected += begun_seconds(scene, effects, trial.evaluations, trial.points);
   }
-  const bool tells = tried > least_trial && expected > 0.0;
-  return tells ? tried / (expected * machine_slowness()) : 1.0;
+  if (!(tried > least_trial) || !(expected > 0.0)) return 1.0;
+  // What more it took may be stability, which neither a search nor a best value judges.
+  constexpr double most = 4.0;
+  return std::min(tried / (expected * machine_slowness()), most);
 }
 
 /// Folds of a curve, of those that were begun.
