@@ -29,9 +29,10 @@ double energy_of(HarmonicBalance& balance, const LocalPeak& peak) {
   return period_energy(balance, peak.point.x, peak.point.parameter).friction;
 }
 
-/// A peak that leaves the range is still one.
+/// A peak that leaves the range is still one; a single frequency is kept.
 ContinuationOptions widened(ContinuationOptions range) {
   constexpr double beyond = 0.1;
+  if (range.frequency_begin == range.frequency_end) return range;
   const bool forward = range.frequency_begin < range.frequency_end;
   (forward ? range.frequency_begin : range.frequency_end) *= 1.0 - beyond;
   (forward ? range.frequency_end : range.frequency_begin) *= 1.0 + beyond;
