@@ -64,9 +64,10 @@ bool is_unstable(const solver::ResponsePoint& point) {
   return point.stability == solver::Stability::unstable || point.mark == solver::PointMark::fold;
 }
 
-/// By more than rounding. @param point  of a branch beside the curve, say.
+constexpr double clearly = 1.001;  // higher
+
+/// Than every point of the curve.
 bool is_above(const solver::ResponsePoint& point, const solver::ResponseCurve& curve) {
-  constexpr double clearly = 1.001;
   return std::ranges::all_of(curve.points, [&](const solver::ResponsePoint& own) {
     return point.amplitude > clearly * own.amplitude;
   });
@@ -76,7 +77,6 @@ bool is_above(const solver::ResponsePoint& point, const solver::ResponseCurve& c
 std::string largest_text(const solver::ResponseCurve& curve, const solver::ResponsePoint& peak) {
   const auto highest =
       std::ranges::max_element(curve.points, {}, &solver::ResponsePoint::amplitude);
-  constexpr double clearly = 1.001;
   if (!(highest->amplitude > clearly * peak.amplitude)) {
     return fmt::format("; largest {:.6g} m at {:.6g} Hz", peak.amplitude, to_hz * peak.frequency);
   }

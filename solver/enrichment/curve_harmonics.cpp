@@ -49,13 +49,16 @@ std::vector<Place> places_of(const Scene& scene, const ContinuationOptions& rang
     if (!counts || places.size() == most_places) break;
     if (&one != told) add(one);
   }
-  for (Place& place : places) place.height = place.peak.amplitude / high.front().point.amplitude;
+  const double highest = high.empty() ? 0.0 : high.front().point.amplitude;
+  for (Place& place : places) {
+    if (highest > 0.0) place.height = place.peak.amplitude / highest;
+  }
   return places;
 }
 
 /// Changes of a lower place are told of the highest.
 ContinuationOptions range_of(const Place& place, ContinuationOptions range) {
-  range.harmonic_tolerance /= std::min(place.height, 1.0);
+  if (place.height > 0.0) range.harmonic_tolerance /= std::min(place.height, 1.0);
   return range;
 }
 
