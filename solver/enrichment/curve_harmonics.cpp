@@ -27,7 +27,7 @@ struct Place {
   LocalPeak peak;
   double frequency = 0.0;
   bool is_told = false;  // the highest peak of the curve, else its highest end
-  double height = 1.0;   // over the highest
+  double height = 1.0;   // over the highest; of what is told, its own
 };
 
 /// What the answer of a curve is read from: what is told of it, then what is higher or nearly so.
@@ -51,12 +51,12 @@ std::vector<Place> places_of(const Scene& scene, const ContinuationOptions& rang
   }
   const double highest = high.empty() ? 0.0 : high.front().point.amplitude;
   for (Place& place : places) {
-    if (highest > 0.0) place.height = place.peak.amplitude / highest;
+    if (!place.is_told && highest > 0.0) place.height = place.peak.amplitude / highest;
   }
   return places;
 }
 
-/// Changes of a lower place are told of the highest.
+/// What a lower place lacks counts as a share of the highest; of what is told, of itself.
 ContinuationOptions range_of(const Place& place, ContinuationOptions range) {
   if (place.height > 0.0) range.harmonic_tolerance /= std::min(place.height, 1.0);
   return range;
@@ -170,13 +170,13 @@ CurveHarmonics choose_harmonics(const Scene& scene, const ContinuationOptions& r
                                 : std::nullopt;
       const ContinuationOptions of_place = range_of(place, range);
       if (distance && *distance <= of_place.harmonic_tolerance) {
-        chosen.left_out = std::max(chosen.left_out, *distance);
+        chosen.left_out = std::max(chosen.left_out, *distance * place.height);
         continue;
       }
       PeakHarmonicsChoice choice(scene, of_place);
       const PeakHarmonics found = choice.choose(of_now, place.peak, chosen.set);
       chosen.set = chosen.set.united(found.set.orders());
-      chosen.left_out = std::max(chosen.left_out, found.left_out);
+      chosen.left_out = std::max(chosen.left_out, found.left_out * place.height);
       chosen.settled = chosen.settled && found.settled;
       if (found.peak) chosen.known.push_back(found.richest);
       if (found.peak && place.is_told) {

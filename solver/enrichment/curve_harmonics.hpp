@@ -22,8 +22,10 @@ using CurveOfSet = std::function<ResponseCurve(const HarmonicSet& set)>;
 
 struct CurveHarmonics {
   HarmonicSet set{1};
-  double left_out = 0.0;  ///< Σ |δA| / A of harmonics left out, the largest of the high points
-  bool settled = true;    ///< false: a high point may need harmonics beyond those
+  /// Σ |δA| / A of harmonics left out, the largest of the high points; A of the highest, of the
+  /// place that is told its own.
+  double left_out = 0.0;
+  bool settled = true;  ///< false: a high point may need harmonics beyond those
   long iterations = 0;
   long contact_evaluations = 0;
   SettledPeak highest{};                  ///< the curve's highest peak, else end; amplitude 0: lost
