@@ -20,6 +20,42 @@ CurveResult folded(int n_folds) {
   return result;
 }
 
+/// A curve with one peak, and a point at the end of its range.
+CurveResult with_end(double peak, double end) {
+  CurveResult result;
+  result.name = "ended";
+  result.curve.complete = true;
+  for (const double amplitude : {0.5 * peak, peak, end}) {
+    solver::ResponsePoint& point = result.curve.points.emplace_back();
+    point.amplitude = amplitude;
+    point.frequency = 100.0 * static_cast<double>(result.curve.points.size());
+  }
+  result.curve.points[1].mark = solver::PointMark::peak;
+  return result;
+}
+
+TEST(RunMessages, ACurveNamesWhatIsLargestBesideItsPeak) {
+  const std::string lower = outcome_text(with_end(2.0, 1.0));
+  EXPECT_NE(lower.find("; largest 2 m at"), std::string::npos) << lower;
+  const std::string higher = outcome_text(with_end(2.0, 3.0));
+  EXPECT_NE(higher.find("; highest peak 2 m at"), std::string::npos) << higher;
+  EXPECT_NE(higher.find(", largest 3 m at"), std::string::npos) << higher;
+}
+
+TEST(RunMessages, ABranchAboveTheCurveIsToldUnlessItIsUnstable) {
+  CurveResult result = with_end(2.0, 1.0);
+  EXPECT_FALSE(has_higher_branch(result));
+  solver::ResponsePoint beside = result.curve.points[1];
+  result.curve.detached.push_back({.points = {beside}});
+  EXPECT_FALSE(has_higher_branch(result));
+  EXPECT_EQ(detached_text(result).at(0).find("above the curve"), std::string::npos);
+  result.curve.detached[0].points[0].amplitude = 2.1;
+  EXPECT_TRUE(has_higher_branch(result));
+  EXPECT_NE(detached_text(result).at(0).find("above the curve"), std::string::npos);
+  result.curve.detached[0].points[0].stability = solver::Stability::unstable;
+  EXPECT_FALSE(has_higher_branch(result));
+}
+
 TEST(RunMessages, ManyFoldsAreToldWithARemedy) {
   EXPECT_TRUE(many_folds_text(folded(4)).empty());
   const std::string text = many_folds_text(folded(52));
