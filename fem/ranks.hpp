@@ -23,8 +23,9 @@ namespace microslip::fem {
 [[nodiscard]] int rank();          ///< 0 without a session
 [[nodiscard]] int n_ranks();       ///< 1 without a session
 [[nodiscard]] int n_ranks_here();  ///< on this machine, 1 without a session
-/// Of the machine.
-[[nodiscard]] int n_cores();
+[[nodiscard]] int n_cores();       ///< of the machine
+/// Of them, those this process may run on, by a batch system or taskset.
+[[nodiscard]] int usable_cores();
 
 /// Begins a session: counts who is on this machine, and lets rank 0, which does alone what is not
 /// solved on all, use the cores of all of them: mpirun binds each rank to cores of its own.

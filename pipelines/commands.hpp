@@ -2,16 +2,15 @@
 /// The commands of the program: what was typed, and the studies it asks for.
 #pragma once
 
-#include <algorithm>
 #include <functional>
 #include <optional>
 #include <span>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "fem/ranks.hpp"
 #include "pipelines/study.hpp"
 
 namespace microslip::pipelines {
@@ -23,7 +22,8 @@ struct Arguments {
   std::string mesh_of_modes;  // of `init modes`
   std::string output;
   std::vector<std::string> overrides;
-  int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  /// A rank is bound to a core of its own at first (fem::meet_ranks()).
+  int jobs = fem::started_in_parallel() ? fem::n_cores() : fem::usable_cores();
   std::optional<int> harmonics;
   std::optional<std::string> plot_folder;
   std::optional<std::string> picture;  // of `check`

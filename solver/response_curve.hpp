@@ -26,8 +26,10 @@ enum class StabilityBasis { slow_flow, hill, period_map, damped_linear };
 
 /// What a period takes from the excitation [J].
 struct PeriodEnergy {
-  double friction = 0.0;  ///< W_fric: the dissipated energy
-  double damping = 0.0;   ///< W_damp, of the viscous damping of the modes
+  /// ∬∮ μn|ds| dA: the dissipated energy. Of rough surfaces it is not the work of the contact's
+  /// force, since their stiffness follows the load.
+  double friction = 0.0;
+  double damping = 0.0;  ///< W_damp, of the viscous damping of the modes
 };
 
 /// How the output goes on along the branch.

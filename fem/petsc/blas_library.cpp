@@ -5,14 +5,13 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
-#include <thread>
 
 #include <dlfcn.h>
 #include <petscsys.h>
-#include <sched.h>
 
 #include <petscblaslapack.h>  // uses what petscsys.h declares, and does not include it
 
+#include "fem/ranks.hpp"
 #include "fem/slepc_session.hpp"
 
 namespace microslip::fem {
@@ -29,13 +28,6 @@ bool user_chose_threads() {
     if (value != nullptr && std::atoi(value) > 0) return true;
   }
   return false;
-}
-
-int usable_threads() {
-  cpu_set_t allowed;
-  CPU_ZERO(&allowed);
-  if (sched_getaffinity(0, sizeof(allowed), &allowed) == 0) return CPU_COUNT(&allowed);
-  return static_cast<int>(std::thread::hardware_concurrency());
 }
 
 // File of the library that answers for dgemm, links resolved: the alternatives system hides the
@@ -60,9 +52,8 @@ std::string second_word(const std::string& text) {
 void set_blas_threads(int n_ranks_here) {
   auto* set_threads = symbol<void(int)>("openblas_set_num_threads");
   if (set_threads == nullptr || user_chose_threads()) return;
-  const auto hardware = static_cast<int>(std::thread::hardware_concurrency());
   // mpirun may already have bound each rank to its share of the cores.
-  set_threads(std::max(1, std::min(usable_threads(), hardware / std::max(1, n_ranks_here))));
+  set_threads(std::max(1, std::min(usable_cores(), n_cores() / std::max(1, n_ranks_here))));
 }
 
 void reserve_blas_memory() {

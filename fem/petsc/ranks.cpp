@@ -96,7 +96,13 @@ int n_ranks() {
 
 int n_ranks_here() { return ranks_here; }
 
-int n_cores() { return static_cast<int>(std::thread::hardware_concurrency()); }
+int n_cores() { return static_cast<int>(std::max(1U, std::thread::hardware_concurrency())); }
+
+int usable_cores() {
+  cpu_set_t allowed;
+  CPU_ZERO(&allowed);
+  return sched_getaffinity(0, sizeof allowed, &allowed) == 0 ? CPU_COUNT(&allowed) : n_cores();
+}
 
 void meet_ranks() {
   if (n_ranks() == 1) return;

@@ -104,7 +104,7 @@ void climb_rung(const Rung& rung, const std::string& source, const TimedStructur
   const RicherModels richer = richer_models(model, rung.scene, structure.solved.get(), {source});
   for (const CurveRequest& request : curve_requests(rung.scene)) {
     if (interrupt_requested()) throw InterruptedError("interrupted; finished ladders are kept");
-    if (std::holds_alternative<LimitName>(request.load)) continue;
+    if (!is_loaded(request)) continue;
     CurveResult curve;
     const Seconds tracing = timed(again, [&] {
       curve = trace_curve(model, rung.scene, request,

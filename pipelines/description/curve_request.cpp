@@ -33,6 +33,10 @@ void make_unique(std::vector<CurveRequest>& requests) {
 
 }  // namespace
 
+bool is_loaded(const CurveRequest& request) {
+  return !std::holds_alternative<LimitName>(request.load);
+}
+
 std::vector<CurveRequest> curve_requests(const SceneDescription& scene) {
   std::vector<CurveRequest> requests;
   if (!scene.response->preload.empty()) {
@@ -52,9 +56,7 @@ std::vector<CurveRequest> curve_requests(const SceneDescription& scene) {
 }
 
 bool only_limits(const SceneDescription& scene) {
-  return scene.response && std::ranges::all_of(curve_requests(scene), [](const CurveRequest& one) {
-           return std::holds_alternative<LimitName>(one.load);
-         });
+  return scene.response && std::ranges::none_of(curve_requests(scene), is_loaded);
 }
 
 bool is_linear_study(const SceneDescription& scene) {

@@ -13,10 +13,14 @@ namespace microslip::pipelines {
 /// What one curve is asked for: a preload, a factor on the rest loads that are given (modal scenes
 /// and bars), or a linear limit.
 struct CurveRequest {
-  std::string name;                        ///< stem of the CSV
-  PreloadEntry load;                       ///< [N], or the factor
+  std::string name;  ///< stem of the CSV
+  PreloadEntry
+      load;  ///< [N], or the factor; a limit, a gap, what the static loads of a scene press
   std::string place = "response.preload";  ///< of messages
 };
+
+/// Else it is a linear limit. What presses or opens may be a number, a gap or static loads.
+[[nodiscard]] bool is_loaded(const CurveRequest& request);
 
 /// Curves of a scene in the order they are written: the asked ones,
 /// then the limits of a modal scene.

@@ -34,8 +34,8 @@ constexpr double of_a_start = 20.0;  // at a single frequency
 constexpr double of_a_start_beside_a_curve = 60.0;
 // Of a curve: five richer models, one of four times the points.
 constexpr double of_error_rows = 450.0;
-constexpr double of_error_rows_of_chosen = 700.0;  // peaks have more harmonics than their curves
-constexpr double rows_of_a_linear_curve = 0.2;     // of others: no point is awake
+constexpr double of_error_rows_of_chosen = 1500.0;  // peaks have more harmonics than their curves
+constexpr double rows_of_a_linear_curve = 0.2;      // of others: no point is awake
 // Of a search for a best value; of one that may end sooner, with its error.
 constexpr double of_a_search = 18'000.0;
 constexpr double of_a_short_search = 12'000.0;
@@ -46,16 +46,20 @@ constexpr double searches_of_a_bracket = 4.0;
 constexpr double frequencies_of_a_search = 14.0;  // of a range (solver/curve/branch_search.hpp)
 
 constexpr double points_of_a_curve = 95.0;
-constexpr int harmonics_of_a_choice = 7;  // about, where contact slips
-constexpr int harmonics_of_a_choice_on_a_mesh = 9;
-constexpr int harmonics_of_a_choice_in_plane = 12;
+// About, to one per cent, where contact slips; so many more to less.
+constexpr double harmonics_of_a_choice = 7.0;
+constexpr double harmonics_of_a_choice_on_a_mesh = 12.0;
+constexpr double usual_choice = 0.01;
+constexpr double more_harmonics = 0.6;         // exponent
 constexpr double period_map = 2.2e-4;          // of a point in scenes of few states, over harmonics
 constexpr double states_of_a_period_map = 16;  // at most (solver/stability/stability.hpp)
 // As many times where loads vary, so that instants of slip and opening are looked for.
 constexpr double of_events_in_a_period = 2.5;
 constexpr double of_many_events_in_a_period = 10.0;  // of several points
 constexpr double factorisation = 6e-11;              // over the cube of the unknowns
-constexpr double few_factorisations = 0.5;  // of evaluations that are cheap without derivatives
+// Of evaluations that are cheap without derivatives; of many unknowns they are quicker and fewer.
+constexpr double few_factorisations = 0.5;
+constexpr double many_unknowns = 80.0;
 // Hill's exponents of a point, over the cube of the unknowns up to where states are condensed; a
 // part of what evaluations take.
 constexpr double hill = 2e-10;
@@ -122,18 +126,25 @@ bool has_odd_motions(const SceneDescription& scene, const CurveEffects& effects)
   return !has_varying_loads(scene);
 }
 
+int n_chosen(const SceneDescription& scene) {
+  const HarmonicSettings& given = scene.settings.harmonics;
+  const double n = scene.contacts.empty() ? harmonics_of_a_choice : harmonics_of_a_choice_on_a_mesh;
+  if (!given.chosen()) return static_cast<int>(n);
+  const double closer = std::pow(usual_choice / given.tolerance, more_harmonics);
+  return static_cast<int>(std::lround(std::clamp(n * closer, 1.0, 1.0 * given.highest)));
+}
+
 Size size_of(const SceneDescription& scene, const CurveEffects& effects) {
   Size size;
   size.points = n_points(scene, effects.areas);
-  size.modes = n_free_modes(scene) + (effects.residual ? n_shapes(scene) : 0.0);
+  const double shapes = n_shapes(scene);
+  size.modes = effects.modes ? *effects.modes - (effects.residual ? 0.0 : shapes)
+                             : n_free_modes(scene) + (effects.residual ? shapes : 0.0);
   const HarmonicSettings& given = scene.settings.harmonics;
   int n_given = given.orders.empty() ? given.highest : static_cast<int>(given.orders.size());
   const bool chosen = effects.chosen_harmonics || (effects.several_harmonics && n_given == 1);
   if (given.orders.empty() && has_odd_motions(scene, effects)) n_given = (n_given + 1) / 2;
-  const int n_chosen = scene.contacts.empty()     ? harmonics_of_a_choice
-                       : effects.second_direction ? harmonics_of_a_choice_in_plane
-                                                  : harmonics_of_a_choice_on_a_mesh;
-  size.harmonics = chosen ? n_chosen : effects.several_harmonics ? n_given : 1;
+  size.harmonics = chosen ? n_chosen(scene) : effects.several_harmonics ? n_given : 1;
   return size;
 }
 
@@ -182,17 +193,18 @@ bool opens_at_once(const SceneDescription& scene, const CurveEffects& effects) {
 }
 
 /// Many modes are seen by a contact through fewer coordinates, by few points through three each.
-double cube_of_unknowns(const Size& size) {
+double n_unknowns(const Size& size) {
   constexpr double most_coordinates = 40.0;  // about
   const double coordinates = std::min({size.modes, most_coordinates, 3.0 * size.points});
-  const double unknowns = coordinates * (2.0 * size.harmonics + 1.0);
-  return unknowns * unknowns * unknowns;
+  return coordinates * (2.0 * size.harmonics + 1.0);
 }
 
 double evaluation_seconds(const CurveEffects& effects, const Size& size) {
   const bool sampled = method_of(effects, size) == contact::Method::lanes;
-  return size.points * point_seconds(effects, size) +
-         (sampled ? few_factorisations : 1.0) * factorisation * cube_of_unknowns(size);
+  const double n = n_unknowns(size);
+  const double balance =
+      sampled ? few_factorisations * n * n * std::min(n, many_unknowns) : n * n * n;
+  return size.points * point_seconds(effects, size) + factorisation * balance;
 }
 
 /// Of one point of a curve, beside its evaluations: where the multipliers of its period are looked
@@ -206,14 +218,12 @@ double stability_seconds(const SceneDescription& scene, const CurveEffects& effe
                         : has_varying_loads(scene)   ? of_events_in_a_period
                                                      : 1.0;
   if (in_time) return effects.stability ? events * size.harmonics * period_map : 0.0;
-  return effects.stability ? 0.0 : -std::min(hill * cube_of_unknowns(size), hill_of_many);
+  return effects.stability ? 0.0 : -std::min(hill * std::pow(n_unknowns(size), 3), hill_of_many);
 }
 
 /// Those that are no linear limit.
 double n_curves(const SceneDescription& scene) {
-  return static_cast<double>(std::ranges::count_if(
-      curve_requests(scene),
-      [](const CurveRequest& one) { return !std::holds_alternative<LimitName>(one.load); }));
+  return static_cast<double>(std::ranges::count_if(curve_requests(scene), is_loaded));
 }
 
 /// Of the harmonics of one curve (harmonics_check.hpp).

@@ -219,7 +219,8 @@ ContactReach reach_under(const ReducedModel& model, const ReducedModel& springs,
   return reach;
 }
 
-/// Of all curves, and of the ends of a search over the preload.
+}  // namespace
+
 std::vector<double> loads_of(const ReducedModel& model, const SceneDescription& scene) {
   std::vector<double> loads;
   for (const CurveRequest& request : curve_requests(scene)) {
@@ -236,6 +237,8 @@ std::vector<double> loads_of(const ReducedModel& model, const SceneDescription& 
   }
   return loads;
 }
+
+namespace {
 
 ContactReach larger(const ContactReach& a, const ContactReach& b) {
   return {std::max(a.slip, b.slip), std::max(a.load, b.load), std::max(a.bias_load, b.bias_load),

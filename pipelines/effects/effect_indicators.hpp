@@ -34,6 +34,12 @@ struct ContactReach {
   double outside = 0.0;
 };
 
+/// Of all curves under a load, and of what is searched: the ends of a range of preloads, else the
+/// one load, by the measure of the model.
+/// @throws RefusedError  a gap where the normal stiffness is zero.
+[[nodiscard]] std::vector<double> loads_of(const ReducedModel& model,
+                                           const SceneDescription& scene);
+
 /// Under one load of a curve, by the measure of the model.
 [[nodiscard]] ContactReach contact_reach(const ReducedModel& model, const SceneDescription& scene,
                                          double load);

@@ -29,10 +29,8 @@ double force_at_unit_load(const ReducedModel& model) {
 /// That presses [N]; 0: none does.
 double smallest_force(const ReducedModel& model, const SceneDescription& scene) {
   double smallest = no_limit;
-  for (const CurveRequest& request : curve_requests(scene)) {
-    if (std::holds_alternative<UniformGap>(request.load)) continue;
-    const auto* load = std::get_if<double>(&request.load);
-    if (load != nullptr && *load > 0.0) smallest = std::min(smallest, *load);
+  for (const double load : loads_of(model, scene)) {
+    if (load > 0.0) smallest = std::min(smallest, load);
   }
   return std::isfinite(smallest) ? smallest * force_at_unit_load(model) : 0.0;
 }

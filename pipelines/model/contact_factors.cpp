@@ -52,10 +52,14 @@ SceneDescription with_stiffness_keys(const SceneDescription& scene, double facto
 
 ReducedModel with_point_stiffness(ReducedModel model, double factor, double load) {
   for (contact::Patch& patch : model.patches) {
-    for (double& rest_load : patch.cells.preload_field) {
-      if (load * rest_load < 0.0) rest_load *= factor;
-    }
+    const Eigen::VectorXd before = patch.cells.stiffness.col(1);
     multiply_local_stiffness(patch.cells, factor);
+    for (Eigen::Index i = 0; i < before.size(); ++i) {
+      // A gap is −rest load over the stiffness, residual flexibility included: the length stays.
+      double& rest_load = patch.cells.preload_field[i];
+      const bool is_gap = load * rest_load < 0.0 && before[i] > 0.0;
+      if (is_gap) rest_load *= patch.cells.stiffness(i, 1) / before[i];
+    }
     multiply_local_stiffness(patch.vertices, factor);
   }
   return model;

@@ -39,7 +39,8 @@ std::vector<Stretch> joined(std::vector<Stretch> stretches) {
   return result;
 }
 
-/// What of `stretches` no other covers, both joined; what is shorter than a step is left out.
+/// What of `stretches` no other covers, both joined; what is shorter than a step is left out, unless
+/// it is a single frequency.
 std::vector<Stretch> without(const std::vector<Stretch>& stretches,
                              const std::vector<Stretch>& others) {
   constexpr double least = 1e-6;  // of the frequency: ends of neighbouring steps
@@ -55,6 +56,11 @@ std::vector<Stretch> without(const std::vector<Stretch>& stretches,
       low = std::max(low, other.high);
     }
     keep(low, stretch.high);
+    const auto covers = [&](const Stretch& other) {
+      return other.low <= stretch.low && stretch.high <= other.high;
+    };
+    const bool is_point = stretch.low == stretch.high;
+    if (is_point && std::ranges::none_of(others, covers)) left.push_back(stretch);
   }
   return left;
 }
@@ -62,6 +68,23 @@ std::vector<Stretch> without(const std::vector<Stretch>& stretches,
 /// A fold is neutral: it belongs to what is beside it.
 bool is_unstable(const solver::ResponsePoint& point) {
   return point.stability == solver::Stability::unstable || point.mark == solver::PointMark::fold;
+}
+
+/// One verdict is of the motion itself, the other rests on Hill's exponents, which prove nothing.
+bool is_doubtful_between(const solver::ResponsePoint& a, const solver::ResponsePoint& b) {
+  const auto unstable = [](const solver::ResponsePoint& point) {
+    return point.stability == solver::Stability::unstable && point.mark != solver::PointMark::fold;
+  };
+  const auto unproved = [](const solver::ResponsePoint& point) {
+    return point.stability == solver::Stability::stable &&
+           point.stability_basis == solver::StabilityBasis::hill;
+  };
+  return (unstable(a) && unproved(b)) || (unproved(a) && unstable(b));
+}
+
+std::string text_of(const Stretch& stretch) {
+  if (stretch.low == stretch.high) return fmt::format("at {:.6g}", to_hz * stretch.low);
+  return fmt::format("from {:.6g} to {:.6g}", to_hz * stretch.low, to_hz * stretch.high);
 }
 
 constexpr double clearly = 1.001;  // higher
@@ -167,7 +190,7 @@ std::string restless_text(const CurveResult& result) {
       const auto& b = points[i + 1 < points.size() ? i + 1 : i];
       const bool both = is_unstable(a) && is_unstable(b);
       const auto [low, high] = std::minmax(a.frequency, b.frequency);
-      (both ? unstable : settled).push_back({low, high});
+      (both || is_doubtful_between(a, b) ? unstable : settled).push_back({low, high});
     }
   };
   add(result.curve.points);
@@ -177,8 +200,7 @@ std::string restless_text(const CurveResult& result) {
   if (restless.empty()) return {};
   std::string where;
   for (const Stretch& stretch : restless) {
-    where += where.empty() ? "from " : ", and from ";
-    where += fmt::format("{:.6g} to {:.6g}", to_hz * stretch.low, to_hz * stretch.high);
+    where += (where.empty() ? "" : ", and ") + text_of(stretch);
   }
   return fmt::format(
       "curve {}: {} Hz no solution found is stable: the motion there does not repeat with the "

@@ -99,6 +99,11 @@ void RunRecord::begin() {
   std::filesystem::remove(earlier_summary(folder_));
 }
 
+void RunRecord::take_over() {
+  const std::lock_guard lock(mutex_);
+  begin();
+}
+
 void RunRecord::put_summary_aside() {
   const std::filesystem::path aside = earlier_summary(folder_);
   if (std::filesystem::exists(aside)) return;
@@ -227,8 +232,8 @@ void RunRecord::stage(const std::string& name) {
 }
 
 void RunRecord::show_stage() {
-  if (!begun_) return;
   const std::lock_guard lock(mutex_);
+  if (!begun_) return;
   place_.publish();
   place_.remove_superseded();
   shown_ = summary_.curves;
@@ -248,7 +253,7 @@ void RunRecord::maps_are_drawn() {
 }
 
 void RunRecord::keep_mesh(const mesh::Mesh& mesh, double density) {
-  begin();
+  take_over();
   show_stage();  // before the checkpoint says that the mesh is in its place
   if (resumable_) checkpoint_.require_same("mesh", fingerprint_of(mesh), "the mesh");
   progress_.info(describe_mesh(mesh, density));
@@ -327,7 +332,7 @@ void RunRecord::keep_choices(const SceneDescription& scene) {
 }
 
 void RunRecord::keep_model(const ReducedModel& model) {
-  begin();
+  take_over();
   const std::lock_guard lock(mutex_);
   Eigen::VectorXd residual(0);
   if (!summary_.modes.empty() && summary_.modes.front().residual) {

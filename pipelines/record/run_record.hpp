@@ -151,8 +151,9 @@ class RunRecord {
   /// Under mutex_.
   [[nodiscard]] BesideBar left_out_of_curves() const;
 
-  /// Takes the folder over from an earlier run.
+  /// Takes the folder over from an earlier run; under mutex_, or before other threads see this.
   void begin();
+  void take_over();
   /// Until then its summary.json is kept aside, and put back if this one comes to nothing,
   /// which it then tells.
   void put_summary_aside();
@@ -164,8 +165,8 @@ class RunRecord {
   std::filesystem::path staged_;  ///< where files are written
   Checkpoint checkpoint_;
   std::string scene_toml_;
-  bool refines_;  ///< what is left out is taken in by itself, without being told to
-  bool begun_ = false;
+  bool refines_;           ///< what is left out is taken in by itself, without being told to
+  bool begun_ = false;     ///< under mutex_
   bool resumable_ = true;  ///< what is kept is what a resumed run would find again
   bool plots_;             ///< or report.md alone
   Progress progress_;

@@ -5,13 +5,13 @@
 #include <ctime>
 #include <numbers>
 #include <optional>
-#include <variant>
 #include <vector>
 
 #include "pipelines/description/curve_request.hpp"
 #include "pipelines/effects/effect_choice.hpp"
 #include "pipelines/model/curve_load.hpp"
 #include "pipelines/response/response_stage.hpp"
+#include "pipelines/system/deadline.hpp"
 #include "pipelines/system/interrupt.hpp"
 #include "pipelines/system/machine_speed.hpp"
 #include "pipelines/system/scene_error.hpp"
@@ -73,6 +73,7 @@ struct Trial {
 
 Trial try_curve(const ReducedModel& model, const SceneDescription& scene,
                 const CurveRequest& request, const WayAlong& way, double seconds) {
+  const TimeLimit limit(scene.response->time_budget);
   const double begin = processor_seconds();
   const auto spent = [begin] { return processor_seconds() - begin; };
   Trial trial;
@@ -90,7 +91,7 @@ Trial try_curve(const ReducedModel& model, const SceneDescription& scene,
   trial.is_linear = !result.curve.certificate.empty();
   using enum solver::Diagnosis;
   trial.complete = result.curve.diagnosis != interrupted && result.curve.diagnosis != budget &&
-                   !result.lacks_time;
+                   !result.lacks_time && !limit.is_over();
   return trial;
 }
 
@@ -101,7 +102,8 @@ double seconds_of(const Trial& trial, double before, double slowness) {
   const double on_the_way = trial.seconds - trial.before_first_point;
   constexpr double beside_a_choice = 3.0;  // of harmonics, about
   if (!(trial.share > 0.0) || !(on_the_way > 0.0)) {
-    return std::max(slowness * before, beside_a_choice * trial.seconds);
+    // Evaluations with few harmonics, so far, take less than they were said to.
+    return std::max(std::max(slowness, 1.0) * before, beside_a_choice * trial.seconds);
   }
   const double by_pace = on_the_way / trial.share;
   const double of_way = std::max(before - trial.before_first_point, on_the_way);
@@ -113,9 +115,7 @@ double seconds_of(const Trial& trial, double before, double slowness) {
 /// Curves under a load.
 std::vector<CurveRequest> loaded_curves(const SceneDescription& scene) {
   std::vector<CurveRequest> requests = curve_requests(scene);
-  std::erase_if(requests, [](const CurveRequest& one) {
-    return std::holds_alternative<LimitName>(one.load);
-  });
+  std::erase_if(requests, [](const CurveRequest& one) { return !is_loaded(one); });
   return requests;
 }
 

@@ -57,13 +57,16 @@ void stop_if_interrupted(const std::string& kept) {
 
 /// In which order curves are solved: with a budget the cheap ones first, linear limits and high
 /// preloads, so that there are as many as can be when it is over.
-std::vector<std::size_t> order_of(const std::vector<CurveRequest>& requests, double budget) {
+std::vector<std::size_t> order_of(const ReducedModel& model,
+                                  const std::vector<CurveRequest>& requests, double budget) {
   std::vector<std::size_t> order(requests.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   if (!std::isfinite(budget)) return order;
   const auto price = [&](std::size_t i) {
-    const auto* load = std::get_if<double>(&requests[i].load);
-    return load != nullptr ? -*load : -std::numeric_limits<double>::infinity();
+    if (!is_loaded(requests[i])) return -std::numeric_limits<double>::infinity();
+    const auto* gap = std::get_if<UniformGap>(&requests[i].load);
+    return gap != nullptr ? gap->width * total_normal_stiffness(model)
+                          : -std::get<double>(load_of(requests[i], model));
   };
   std::ranges::stable_sort(order, {}, price);
   return order;
@@ -72,9 +75,9 @@ std::vector<std::size_t> order_of(const std::vector<CurveRequest>& requests, dou
 /// Curves under a load that are not begun before a place in the order; linear limits take no time.
 std::size_t n_loaded(const std::vector<CurveRequest>& requests,
                      const std::vector<std::size_t>& order, std::size_t place) {
-  return static_cast<std::size_t>(std::count_if(
-      order.begin() + static_cast<std::ptrdiff_t>(place), order.end(),
-      [&](std::size_t i) { return std::holds_alternative<double>(requests[i].load); }));
+  return static_cast<std::size_t>(
+      std::count_if(order.begin() + static_cast<std::ptrdiff_t>(place), order.end(),
+                    [&](std::size_t i) { return is_loaded(requests[i]); }));
 }
 
 void tell_shares(const std::vector<int>& solved, Progress& progress) {
@@ -120,7 +123,7 @@ std::vector<CurveResult> trace_family(const ReducedModel& model, const SceneDesc
   if (requests.empty()) return {};
   const KeptResults kept_results(model, scene);
   std::vector<CurveResult> results(requests.size());
-  const std::vector<std::size_t> order = order_of(requests, scene.accuracy.budget);
+  const std::vector<std::size_t> order = order_of(model, requests, scene.accuracy.budget);
   std::mutex keeping;
   std::vector<bool> finished(requests.size(), false);
   std::size_t kept = 0;

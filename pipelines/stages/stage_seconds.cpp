@@ -108,8 +108,7 @@ PictureSeconds picture_seconds(const SceneDescription& scene) {
   constexpr double of_a_motion = 0.05;  // at the peak, whatever maps there are
   if (!scene.response) return {};
   const std::vector<CurveRequest> curves = curve_requests(scene);
-  const auto n_loaded = static_cast<double>(std::ranges::count_if(
-      curves, [](const auto& one) { return std::holds_alternative<double>(one.load); }));
+  const auto n_loaded = static_cast<double>(std::ranges::count_if(curves, is_loaded));
   const double n_maps = n_loaded * static_cast<double>(scene.response->maps.size());
   const double harmonics = scene.settings.harmonics.highest;
   const double maps = n_maps * (of_a_map + of_a_harmonic * harmonics) + n_loaded * of_a_motion;

@@ -3,7 +3,6 @@
 #include <H5public.h>
 #include <dlfcn.h>
 #include <fmt/core.h>
-#include <sched.h>
 #include <sys/resource.h>
 #include <unistd.h>
 #include <vtkVersionMacros.h>
@@ -17,6 +16,7 @@
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
+#include "fem/ranks.hpp"
 #include "fem/slepc_session.hpp"
 
 namespace microslip::pipelines {
@@ -29,13 +29,6 @@ std::string processor_name() {
     if (line.starts_with("model name") && colon != std::string::npos) return line.substr(colon + 2);
   }
   return "unknown";
-}
-
-unsigned usable_cores() {
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  if (sched_getaffinity(0, sizeof set, &set) == 0) return static_cast<unsigned>(CPU_COUNT(&set));
-  return static_cast<unsigned>(std::max(1L, sysconf(_SC_NPROCESSORS_ONLN)));
 }
 
 /// A function of the BLAS that is loaded, whichever the system's alternatives chose; none if the
@@ -73,7 +66,7 @@ std::string version(int major, int minor, int patch) {
 Machine describe_machine() {
   Machine machine;
   machine.processor = processor_name();
-  machine.cores = usable_cores();
+  machine.cores = static_cast<unsigned>(fem::usable_cores());
   constexpr double megabyte = 1e6;
   machine.memory_mb = static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
                       static_cast<double>(sysconf(_SC_PAGESIZE)) / megabyte;

@@ -28,7 +28,7 @@ PeriodEnergy period_energy(HarmonicBalance& balance, const Eigen::VectorXd& x, d
   const Harmonics q = balance.harmonics(x);
   PeriodEnergy energy{.damping = damping_work(q, balance.scene(), frequency)};
   if (balance.scene().contact) {
-    energy.friction = period_work(q, balance.contact_force(x, frequency, q.n_harmonics()));
+    energy.friction = balance.report(q, frequency).slip_work;
   }
   return energy;
 }

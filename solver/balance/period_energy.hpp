@@ -18,7 +18,7 @@ namespace microslip::solver {
 /// W_damp [J], ≥ 0.
 [[nodiscard]] double damping_work(const Harmonics& q, const Scene& scene, double frequency);
 
-/// Of a solution of the balance; one evaluation of its contact.
+/// Of a solution of the balance; one evaluation of its contact, events located.
 /// @param x          unknowns of `balance`.
 /// @param frequency  ω [rad/s].
 [[nodiscard]] PeriodEnergy period_energy(HarmonicBalance& balance, const Eigen::VectorXd& x,

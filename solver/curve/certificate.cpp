@@ -47,9 +47,9 @@ std::optional<BranchSlope> branch_slope(const HarmonicBalance& balance, const Ne
 /// exchanged but rounding of terms that cancel. Without a load a motion is what rounding of the
 /// forces at rest leaves, and all work is that of the residual.
 double exchanged_work(const HarmonicBalance& balance, const Harmonics& q, double excited,
-                      const PeriodEnergy& taken) {
+                      double taken) {
   constexpr double vanishing = 1e-15;
-  const double exchanged = std::max(std::abs(excited), taken.damping + taken.friction);
+  const double exchanged = std::max(std::abs(excited), taken);
   const double size = std::numbers::pi * q.vector().norm() * balance.excitation().norm();
   return size > 0.0 && exchanged > vanishing * size ? exchanged : 0.0;
 }
@@ -92,8 +92,8 @@ ResponsePoint certified_point(HarmonicBalance& balance, const NewtonResult& solu
   const double excited = excited_work(balance, point.q);
   const double damped = damping_work(point.q, scene, frequency);
   const double rubbed = period_work(point.q, balance.harmonics(solution.evaluation.contact_force));
-  point.energy = {.friction = rubbed, .damping = damped};
-  const double exchanged = exchanged_work(balance, point.q, excited, point.energy);
+  point.energy = {.friction = point.report.slip_work, .damping = damped};
+  const double exchanged = exchanged_work(balance, point.q, excited, damped + rubbed);
   if (exchanged > 0.0) {
     point.energy_imbalance = std::abs(excited - damped - rubbed) / exchanged;
     if (scene.contact) {
@@ -115,8 +115,8 @@ Gates gates_of(HarmonicBalance& balance, const ResponsePoint& point, double aske
     const double rounded = natural_scaling(balance, x, frequency).rounding;
     gates.residual = std::max(gates.residual, near_by * rounded);
   }
-  const double exchanged =
-      exchanged_work(balance, point.q, excited_work(balance, point.q), point.energy);
+  const double exchanged = exchanged_work(balance, point.q, excited_work(balance, point.q),
+                                          point.energy.damping + point.energy.friction);
   if (!(exchanged > 0.0)) return gates;
   const double share = path_of(point.q) / exchanged;  // of a force in the work
   const double rounding =

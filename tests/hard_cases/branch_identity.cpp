@@ -171,6 +171,40 @@ TEST(NoStableMotion, IsNotToldWhereAStableOneExistsBesideTheUnstable) {
   EXPECT_EQ(pipelines::restless_text(result), "");
 }
 
+ResponsePoint point_at(double hz, solver::Stability stability, solver::StabilityBasis basis) {
+  ResponsePoint point;
+  point.frequency = two_pi * hz;
+  point.stability = stability;
+  point.stability_basis = basis;
+  return point;
+}
+
+TEST(NoStableMotion, IsToldOfAPeakWhoseNeighboursOnlyHillsExponentsCallStable) {
+  // Row 50: the period map is looked at where it costs little, at peaks and folds.
+  using enum solver::Stability;
+  using enum solver::StabilityBasis;
+  pipelines::CurveResult result;
+  result.name = "scale_1";
+  result.curve.points = {point_at(10.0, stable, hill), point_at(10.1, unstable, period_map),
+                         point_at(10.2, stable, hill), point_at(10.3, stable, period_map)};
+  EXPECT_NE(pipelines::restless_text(result).find("from 10 to 10.2 Hz no solution"),
+            std::string::npos)
+      << pipelines::restless_text(result);
+  result.curve.points[0].stability_basis = period_map;
+  result.curve.points[2].stability_basis = period_map;
+  EXPECT_EQ(pipelines::restless_text(result), "");
+}
+
+TEST(NoStableMotion, IsToldAtASingleFrequency) {
+  pipelines::CurveResult result;
+  result.name = "scale_1";
+  result.curve.points = {
+      point_at(10.0, solver::Stability::unstable, solver::StabilityBasis::period_map)};
+  EXPECT_NE(pipelines::restless_text(result).find("curve scale_1: at 10 Hz no solution"),
+            std::string::npos)
+      << pipelines::restless_text(result);
+}
+
 TEST(NoStableMotion, IntegrationInTimeLeavesTheSolutionAndFindsNoPeriod) {
   // Row 50.
   const solver::Scene scene = restless_scene();

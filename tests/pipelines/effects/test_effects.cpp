@@ -97,6 +97,16 @@ TEST(Effects, WithoutNormalMotionTheLoadStaysThatOfRest) {
   }
 }
 
+TEST(Effects, LoadsAreThoseOfGapsStaticForcesAndSearchesToo) {
+  SceneDescription scene = parse_scene(text, "scene.toml", "/nowhere", {});
+  ReducedModel model = reduced_model(scene);
+  model.static_preload = 7.0;
+  scene.response->preload = {StaticPreload{}, UniformGap{1e-3}, 30.0, LimitName::free};
+  scene.response->optimum = OptimumRequest{.key = "preload", .range = std::array{2.0, 9.0}};
+  const double gap = -1e-3 * (3e3 + 2.0 * 1e3);
+  EXPECT_EQ(loads_of(model, scene), (std::vector{7.0, gap, 30.0, 2.0, 9.0}));
+}
+
 TEST(Effects, ThoseLeftOutAreToldWithTheKeyThatDidIt) {
   const SceneDescription scene =
       parse_scene(text, "scene.toml", "/nowhere", {"effects.normal_motion=off"});

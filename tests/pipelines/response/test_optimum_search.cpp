@@ -162,6 +162,18 @@ TEST(OptimumSearch, KeepsGapsUnderAnotherStiffness) {
   expect_same(entry(found, "contact_stiffness", 2.0), scaled.best);
 }
 
+TEST(OptimumSearch, GapsKeepTheirWidthBesideResidualFlexibility) {
+  ReducedModel model;
+  contact::PatchSamples& cells = model.patches.emplace_back().cells;
+  cells.stiffness = Eigen::MatrixX3d::Constant(2, 3, 1e4);
+  cells.compliance = Eigen::MatrixX3d::Constant(2, 3, 5e-5);
+  cells.preload_field = Eigen::Vector2d(-3.0, 20.0);
+  const ReducedModel stiffer = with_point_stiffness(model, 2.0, 1.0);
+  const contact::PatchSamples& found = stiffer.patches[0].cells;
+  EXPECT_NEAR(found.preload_field[0] / found.stiffness(0, 1), -3e-4, 1e-15);
+  EXPECT_EQ(found.preload_field[1], 20.0);  // presses: a force
+}
+
 TEST(OptimumSearch, DoesNotVaryWhatTheContactDoesNotHave) {
   SceneDescription scene = parse_scene(bar_text, "bar", ".", {});
   ReducedModel model = model_alone(scene);
