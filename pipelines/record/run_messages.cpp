@@ -39,8 +39,8 @@ std::vector<Stretch> joined(std::vector<Stretch> stretches) {
   return result;
 }
 
-/// What of `stretches` no other covers, both joined; what is shorter than a step is left out, unless
-/// it is a single frequency.
+/// What of `stretches` no other covers, both joined; what is shorter than a step is left out,
+/// unless it is a single frequency.
 std::vector<Stretch> without(const std::vector<Stretch>& stretches,
                              const std::vector<Stretch>& others) {
   constexpr double least = 1e-6;  // of the frequency: ends of neighbouring steps
