@@ -169,15 +169,15 @@ CurveBudget budget_about_best(const std::vector<CurveBudget>& budgets,
     const auto add = [&](const char* goal, double effect) {
       result.rows.push_back({optimum_name, goal, source, effect, ErrorKind::solved, seconds});
     };
-    add(best_value_goal, shift(amplitudes_given, *known));
-    add(best_amplitude_goal, lowest_changed(amplitudes_given, *known));
+    add(optimum_goal, shift(amplitudes_given, *known));
+    add(peak_amplitude_goal, lowest_changed(amplitudes_given, *known));
     const auto of_frequency = all_known(frequencies.at(source));
-    add(best_frequency_goal, of_frequency ? (*of_frequency)[middle] : 0.0);
+    add(peak_frequency_goal, of_frequency ? (*of_frequency)[middle] : 0.0);
     if (!result.energy_ratio) continue;
     const auto of_energy = energies.find(source);
-    add(best_energy_goal, of_energy != energies.end() && of_energy->second[middle]
-                              ? *of_energy->second[middle]
-                              : *result.energy_ratio * (*known)[middle]);
+    add(dissipated_energy_goal, of_energy != energies.end() && of_energy->second[middle]
+                                    ? *of_energy->second[middle]
+                                    : *result.energy_ratio * (*known)[middle]);
   }
   result.unknown = {unknown.begin(), unknown.end()};
   return result;

@@ -20,8 +20,8 @@ namespace microslip::pipelines {
 ///
 /// exact where two peaks cross at p, twice as far as it goes where one has a minimum there; at most
 /// to the neighbours. The lowest amplitude becomes that of the lowest of the three peaks A (1 + e).
-/// Relative effects, goals best_value, best_amplitude, best_frequency and, where
-/// friction dissipates there, best_energy.
+/// Relative effects, goals optimum, peak_amplitude, peak_frequency and, where
+/// friction dissipates there, dissipated_energy.
 /// @param jobs  curves side by side, ≥ 1.
 /// @return no rows: another number than the preload is searched, nothing is found, branches that no
 ///         sweep meets count about there, or time is over.

@@ -41,10 +41,11 @@ using Moves = std::vector<Move>;
 /// Errors of one goal of one curve by source.
 using Errors = std::map<std::string, double>;
 
-std::vector<Errors> errors_of(const std::vector<CurveBudget>& budgets) {
+std::vector<Errors> errors_of(const std::vector<CurveBudget>& budgets,
+                              const std::vector<std::string>& goals) {
   std::vector<Errors> all;
   for (const CurveBudget& budget : budgets) {
-    for (const char* goal : {peak_amplitude_goal, peak_frequency_goal}) {
+    for (const std::string& goal : goals) {
       Errors errors;
       for (const ErrorRow& row : budget.rows) {
         if (row.goal == goal) errors[row.source] += std::abs(row.effect);
@@ -400,23 +401,23 @@ std::string stuck_sources(const std::map<std::string, Moves>& moves,
 
 }  // namespace
 
-double largest_bar(const std::vector<CurveBudget>& budgets) {
+double largest_bar(const std::vector<CurveBudget>& budgets, const std::vector<std::string>& goals) {
   double largest = 0.0;
   bool any = false;
   for (const CurveBudget& budget : budgets) {
     if (budget.rows.empty() && budget.unknown.empty()) continue;  // a linear limit
     if (!budget.has_bar()) return none;
     any = true;
-    for (const char* goal : {peak_amplitude_goal, peak_frequency_goal}) {
+    for (const std::string& goal : goals) {
       largest = std::max(largest, bar_of(budget.rows, budget.rows.front().curve, goal));
     }
   }
   return any ? largest : none;
 }
 
-bool is_exact(const CurveBudget& budget, double tolerance) {
+bool is_exact(const CurveBudget& budget, const AccuracyRequest& accuracy) {
   const bool is_linear = budget.rows.empty() && budget.unknown.empty();
-  return is_linear || largest_bar({budget}) <= tolerance;
+  return is_linear || largest_bar({budget}, accuracy.goals) <= accuracy.tolerance;
 }
 
 std::vector<std::string> not_in_bars(const std::vector<CurveBudget>& budgets) {
@@ -430,7 +431,7 @@ std::vector<std::string> not_in_bars(const std::vector<CurveBudget>& budgets) {
 std::optional<Refinement> refinement(const SceneDescription& scene,
                                      const std::vector<CurveBudget>& budgets, double tolerance,
                                      const SpentSeconds& spent, std::string& left) {
-  const std::vector<Errors> errors = errors_of(budgets);
+  const std::vector<Errors> errors = errors_of(budgets, scene.accuracy.goals);
   const std::map<std::string, Moves> moves =
       all_moves(scene, errors, tolerance, spent.extrapolated);
   left = stuck_sources(moves, errors, tolerance);

@@ -41,12 +41,12 @@ struct SpentSeconds {
   double available = std::numeric_limits<double>::infinity();  ///< time there is for all of it
 };
 
-/// The largest bar of all budgets, of amplitude or frequency; infinite where one has none,
-/// or there is none.
-[[nodiscard]] double largest_bar(const std::vector<CurveBudget>& budgets);
+/// The largest bar of these goals of all budgets; infinite where one has none, or there is none.
+[[nodiscard]] double largest_bar(const std::vector<CurveBudget>& budgets,
+                                 const std::vector<std::string>& goals = AccuracyRequest{}.goals);
 
 /// A linear limit, or within the tolerance.
-[[nodiscard]] bool is_exact(const CurveBudget& budget, double tolerance);
+[[nodiscard]] bool is_exact(const CurveBudget& budget, const AccuracyRequest& accuracy);
 
 /// Sources that one of the bars leaves out, named once.
 [[nodiscard]] std::vector<std::string> not_in_bars(const std::vector<CurveBudget>& budgets);

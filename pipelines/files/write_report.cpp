@@ -199,15 +199,15 @@ std::string optimum_cells(const JsonEntry& peak, const JsonEntry& best) {
     return barred ? with_digits_of(value, best.at("bar").number(goal))
                   : fmt::format(fmt::runtime(usual), value);
   };
-  const auto best_value = [&](double value) { return number(value, best_value_goal, "{:.6g}"); };
+  const auto best_value = [&](double value) { return number(value, optimum_goal, "{:.6g}"); };
   const std::vector<JsonEntry> flat = peak.list("flat");
   const std::string value =
       flat.size() == 2
           ? fmt::format("{} … {}", best_value(flat[0].as_number()), best_value(flat[1].as_number()))
           : best_value(value_of(peak));
   return fmt::format("{} | {} | {}{} |\n", value,
-                     number(peak.number("amplitude_m"), best_amplitude_goal, "{:.5g}"),
-                     number(peak.number("frequency_Hz"), best_frequency_goal, "{:.4f}"),
+                     number(peak.number("amplitude_m"), peak_amplitude_goal, "{:.5g}"),
+                     number(peak.number("frequency_Hz"), peak_frequency_goal, "{:.4f}"),
                      place_of(peak) == "range_end" ? " (end of the range)" : "");
 }
 
@@ -240,17 +240,18 @@ std::string optimum_sentence(const JsonEntry& optimum) {
     return fmt::format(fmt::runtime(usual), value);
   };
   const std::string energy =
-      optimum.has("dissipated_energy_J") && barred && optimum.at("bar").has(best_energy_goal)
-          ? fmt::format(", dissipating {} J in a period",
-                        number(optimum.number("dissipated_energy_J"), best_energy_goal, "{:.5g}"))
+      optimum.has("dissipated_energy_J") && barred && optimum.at("bar").has(dissipated_energy_goal)
+          ? fmt::format(
+                ", dissipating {} J in a period",
+                number(optimum.number("dissipated_energy_J"), dissipated_energy_goal, "{:.5g}"))
           : "";
   const std::string beside = barred ? after_bar(left_out_of(optimum.at("bar"))) : "";
   return fmt::format("Best {}: {}{}, {} {} m at {} Hz{}{}{}{}.", key,
-                     number(value_of(optimum), best_value_goal, "{:.6g}"),
+                     number(value_of(optimum), optimum_goal, "{:.6g}"),
                      key == "preload" ? " N" : " (SI)",
                      place_of(optimum) == "peak" ? "peak" : "largest amplitude",
-                     number(optimum.number("amplitude_m"), best_amplitude_goal, "{:.5g}"),
-                     number(optimum.number("frequency_Hz"), best_frequency_goal, "{:.4f}"), energy,
+                     number(optimum.number("amplitude_m"), peak_amplitude_goal, "{:.5g}"),
+                     number(optimum.number("frequency_Hz"), peak_frequency_goal, "{:.4f}"), energy,
                      beside, message.empty() ? "" : "; ", message);
 }
 

@@ -263,7 +263,7 @@ Json bar_json(const OptimumSummary& summary) {
     bar[row.goal] = bar_of(summary.error_budget, optimum_name, row.goal);
   }
   if (bar.empty()) return nullptr;
-  if (!bar.contains(best_energy_goal)) bar[best_energy_goal] = nullptr;
+  if (!bar.contains(dissipated_energy_goal)) bar[dissipated_energy_goal] = nullptr;
   bar["not_known"] = unknown;
   bar["left_out"] = to_json(summary.left_out);
   return bar;

@@ -274,12 +274,12 @@ std::string best_text(const solver::Optimum& optimum, const std::string& unit,
     return with_half_width(value, bar_of(budget.rows, optimum_name, goal));
   };
   std::string text =
-      fmt::format("{}{}, peak {} m at {} Hz", rounded(optimum.best.parameter, best_value_goal),
-                  unit, rounded(optimum.best.amplitude, best_amplitude_goal),
-                  rounded(to_hz * optimum.best.frequency, best_frequency_goal));
+      fmt::format("{}{}, peak {} m at {} Hz", rounded(optimum.best.parameter, optimum_goal), unit,
+                  rounded(optimum.best.amplitude, peak_amplitude_goal),
+                  rounded(to_hz * optimum.best.frequency, peak_frequency_goal));
   if (!budget.energy_ratio) return text + ", where friction dissipates nothing";
   return fmt::format("{}, dissipating {} J in a period", text,
-                     rounded(budget.dissipated_energy, best_energy_goal));
+                     rounded(budget.dissipated_energy, dissipated_energy_goal));
 }
 
 std::string few_harmonics_text(const OptimumBracket& bracket) {
@@ -304,9 +304,9 @@ std::string bracket_text(const OptimumOfFactor& entry, const CurveBudget& budget
   const auto rounded = [&](double value, const char* goal) {
     return with_digits_of(value, bar_of(budget.rows, optimum_name, goal));
   };
-  return fmt::format("best {}, peak {} m at {} Hz", rounded(best.parameter, best_value_goal),
-                     rounded(best.amplitude, best_amplitude_goal),
-                     rounded(to_hz * best.frequency, best_frequency_goal));
+  return fmt::format("best {}, peak {} m at {} Hz", rounded(best.parameter, optimum_goal),
+                     rounded(best.amplitude, peak_amplitude_goal),
+                     rounded(to_hz * best.frequency, peak_frequency_goal));
 }
 
 std::string amplitude_text(const solver::PeakOfParameter& best) {

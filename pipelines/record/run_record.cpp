@@ -326,6 +326,20 @@ void RunRecord::keep_accuracy(AccuracySummary accuracy) {
   summary_.accuracy = std::move(accuracy);
 }
 
+void RunRecord::judge_optimum(double bar) {
+  const std::lock_guard lock(mutex_);
+  if (!summary_.accuracy || bar <= summary_.accuracy->asked) return;
+  AccuracySummary& accuracy = *summary_.accuracy;
+  accuracy.reached = std::max(accuracy.reached, bar);
+  const std::string text = fmt::format(
+      "asked for {}: the best value has {}; ask for less of the peaks, whose models it is found "
+      "with",
+      percent_text(accuracy.asked),
+      std::isfinite(bar) ? "± " + percent_text(bar) : "an error that could not be told");
+  progress_.warning(text);
+  accuracy.message += (accuracy.message.empty() ? "" : "; ") + text;
+}
+
 void RunRecord::keep_choices(const SceneDescription& scene) {
   const std::lock_guard lock(mutex_);
   tell_curves(scene, summary_.curves, summary_.effects);

@@ -80,6 +80,8 @@ class RunRecord {
   void tell_effects();
   /// Of all curves, beside their bars.
   [[nodiscard]] BesideBar left_out();
+  /// Whether the accuracy asked for holds for the best value too. @param bar  infinite: not known.
+  void judge_optimum(double bar);
   /// The accuracy asked for and whether it is reached.
   void keep_accuracy(AccuracySummary accuracy);
   /// What the curves kept so far say about the effects chosen.

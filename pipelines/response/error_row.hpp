@@ -33,10 +33,7 @@ inline constexpr const char* amplitude_there_goal = "amplitude_there";
 /// Of an amplitude at its frequency, over the highest of the curve, with what the change of the
 /// peak makes there: the largest of a sample. No part of a bar.
 inline constexpr const char* along_curve_goal = "along_curve";
-inline constexpr const char* best_value_goal = "best_value";
-inline constexpr const char* best_amplitude_goal = "best_amplitude";
-inline constexpr const char* best_frequency_goal = "best_frequency";
-inline constexpr const char* best_energy_goal = "best_energy";
+inline constexpr const char* optimum_goal = "optimum";  ///< a best value
 inline constexpr const char* optimum_name = "optimum";  ///< in place of a curve's, of a best value
 
 enum class ErrorKind : std::uint8_t {

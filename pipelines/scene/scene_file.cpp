@@ -12,6 +12,7 @@
 #include <toml++/toml.h>
 
 #include "contact/phase.hpp"
+#include "pipelines/response/error_row.hpp"
 #include "pipelines/scene/bar_scene.hpp"
 #include "pipelines/scene/block_scene.hpp"
 #include "pipelines/scene/chain_scene.hpp"
@@ -288,6 +289,23 @@ void read_lean_scene(Reading& reading, const std::string& kind, SceneDescription
   scene.model = model;
 }
 
+std::vector<std::string> read_goals(const SectionReader& s) {
+  constexpr std::array known{peak_amplitude_goal, peak_frequency_goal, dissipated_energy_goal,
+                             optimum_goal};
+  const toml::node& node = *s.node("goals");
+  const toml::array* list = node.as_array();
+  const std::string expected = fmt::format("expected a list of \"{}\"", fmt::join(known, "\", \""));
+  if (list == nullptr || list->empty()) s.fail("goals", expected, &node);
+  std::vector<std::string> goals;
+  for (const toml::node& entry : *list) {
+    const auto goal = entry.value<std::string>();
+    const bool is_known = goal && std::ranges::find(known, *goal) != known.end();
+    if (!is_known) s.fail("goals", expected, &entry);
+    goals.push_back(*goal);
+  }
+  return goals;
+}
+
 /// @param closer_is_asked  the scene has a response.harmonic_tolerance of its own,
 ///                         which may be the smaller one.
 AccuracyRequest read_accuracy(const SectionReader& s, bool closer_is_asked,
@@ -298,6 +316,7 @@ AccuracyRequest read_accuracy(const SectionReader& s, bool closer_is_asked,
   accuracy.tolerance = s.number_or_off("tolerance").value_or(0.0);
   accuracy.budget = s.number_or_off("budget").value_or(accuracy.budget);
   accuracy.extrapolation = s.word("extrapolation", choices) == "auto";
+  accuracy.goals = read_goals(s);
   if (accuracy.tolerance == 0.0) return accuracy;
   if (!accuracy.error_budget) {
     s.fail("tolerance",

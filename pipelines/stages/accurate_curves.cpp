@@ -54,13 +54,17 @@ SpentSeconds spent_on(const Solution& solution, const RunOptions& options) {
     const double errors = seconds_of_errors(solution.budgets[i]);
     spent.curves += curve;
     spent.errors += errors;
-    if (is_exact(solution.budgets[i], solution.scene.accuracy.tolerance)) continue;
+    if (is_exact(solution.budgets[i], solution.scene.accuracy)) continue;
     inexact_curves += curve;
     inexact_errors += errors;
   }
   spent.inexact_curves = inexact_curves;
   spent.inexact_errors = inexact_errors;
   return spent;
+}
+
+double bar_of(const Solution& solution) {
+  return largest_bar(solution.budgets, solution.scene.accuracy.goals);
 }
 
 /// The round of a step. @return empty: not done, and `obstacle` says why; "" where time was over.
@@ -72,9 +76,8 @@ std::optional<SolvedAgain> refined(const Solution& before, const Refinement& ste
   // Where time may be over before the next round, what is told counts.
   constexpr double of_coarse_mesh = 1.5;
   const bool has_time = !std::isfinite(before.scene.accuracy.budget);
-  const double most =
-      (step.new_mesh && has_time ? of_coarse_mesh : 1.0) * largest_bar(before.budgets);
-  if (round && largest_bar(round->solution.budgets) > most) {
+  const double most = (step.new_mesh && has_time ? of_coarse_mesh : 1.0) * bar_of(before);
+  if (round && bar_of(round->solution) > most) {
     obstacle = "the errors are larger then";
     return std::nullopt;
   }
@@ -112,7 +115,7 @@ std::string reached_text(const AccuracySummary& accuracy) {
 }
 
 void look_at(const Solution& solution, RunRecord& record, AccuracySummary& accuracy) {
-  accuracy.reached = largest_bar(solution.budgets);
+  accuracy.reached = bar_of(solution);
   accuracy.not_known = not_in_bars(solution.budgets);
   accuracy.left_out = record.left_out();
 }

@@ -1,9 +1,11 @@
 #include "pipelines/stages/best_value.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <exception>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -101,6 +103,11 @@ void draw_maps_and_find_best_value(const Solution& solution, const RunOptions& o
   const std::vector<std::exception_ptr> failures = run_all(tasks);
   if (is_new && failures.front()) std::rethrow_exception(failures.front());
   record.keep_optimum(solution.model, *scene.response->optimum, found.optimum, found.budget);
+  if (std::ranges::count(scene.accuracy.goals, optimum_goal) > 0) {
+    record.judge_optimum(found.budget.has_bar()
+                             ? bar_of(found.budget.rows, optimum_name, optimum_goal)
+                             : std::numeric_limits<double>::infinity());
+  }
   rethrow_first(failures);
   if (options.bracket && !found.bracket && !cut_short()) {
     found.bracket = search.bracket(options.jobs);

@@ -35,11 +35,10 @@ StructurePointer structure_of(const Solution& before, const Refinement& step,
 
 /// Those that are exact enough stay, where the others get other harmonics alone.
 std::vector<std::size_t> curves_to_solve(const Solution& before, const Refinement& step) {
-  const double tolerance = before.scene.accuracy.tolerance;
   std::vector<std::size_t> again;
   for (std::size_t i = 0; i < before.curves.size(); ++i) {
     const bool stays = step.only_harmonics && before.curves[i].curve.complete &&
-                       is_exact(before.budgets[i], tolerance);
+                       is_exact(before.budgets[i], before.scene.accuracy);
     if (!stays) again.push_back(i);
   }
   return again;

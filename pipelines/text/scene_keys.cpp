@@ -554,6 +554,9 @@ constexpr std::array accuracy_keys{
     KeySpec{"tolerance", other, "1", "\"off\"", 0, 0.5, true,
             "of every peak, e.g. \"2 %\": settings are refined until they are that exact; off: as "
             "written"},
+    KeySpec{"goals", other, "", "[\"peak_amplitude\", \"peak_frequency\"]", 0, 0, false,
+            "what the tolerance is kept for; \"dissipated_energy\" as well; \"optimum\": that of a "
+            "best value is told"},
     KeySpec{"budget", other, "s", "\"off\"", 0, unbounded, true,
             "wall time of a run, e.g. \"60 s\"; then it ends with the best it has"},
     KeySpec{"error_budget", text, "", "\"auto\"", 0, 0, false,

@@ -66,8 +66,9 @@ TEST(Refinement, PricesHarmonicsByTheCurvesThatAreSolvedAgain) {
   ASSERT_TRUE(all && some);
   EXPECT_TRUE(some->only_harmonics);
   EXPECT_LT(some->seconds, all->seconds);
-  EXPECT_TRUE(is_exact(budget({{"mesh", 0.5 * tolerance}}), tolerance));
-  EXPECT_FALSE(is_exact(told[0], tolerance));
+  const AccuracyRequest accuracy{.tolerance = tolerance};
+  EXPECT_TRUE(is_exact(budget({{"mesh", 0.5 * tolerance}}), accuracy));
+  EXPECT_FALSE(is_exact(told[0], accuracy));
 }
 
 TEST(Refinement, PricesTheErrorsThatAreToldAgain) {

@@ -76,7 +76,7 @@ def mark_optimum(column: Sequence[Axes], run: Run, optimum: Mapping[str, Any], w
     bar = optimum.get("bar") or {}
     value_text, amplitude_text, frequency_text = (
         with_half_width(number, bar.get(goal)) for number, goal in
-        ((value, "best_value"), (amplitude, "best_amplitude"), (optimum["frequency_Hz"], "best_frequency")))
+        ((value, "optimum"), (amplitude, "peak_amplitude"), (optimum["frequency_Hz"], "peak_frequency")))
     column[0].set_title(f"best {what}{value_text}{unit}: {amplitude_text} {run.unit} at {frequency_text} Hz",
                         loc="right", color=ACCENT, fontsize=8)
 

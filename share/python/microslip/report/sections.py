@@ -206,10 +206,10 @@ def bracket_row(entry: Mapping[str, Any], best: Mapping[str, Any], unit: str) ->
     label += f" (searched wider: {number(wider[0])} … {number(wider[1])})" if wider else ""
     objection = entry.get("objection") or "not found"
     label += "" if entry.get("found") else f" (lowest{', ' if objection == 'not found' else ': '}{objection})"
-    value = " … ".join(told_like(bar, "best_value", one) for one in entry.get("flat") or [entry["value"]])
-    amplitude = told_like(bar, "best_amplitude", entry["amplitude_m"] / LENGTH[unit])
+    value = " … ".join(told_like(bar, "optimum", one) for one in entry.get("flat") or [entry["value"]])
+    amplitude = told_like(bar, "peak_amplitude", entry["amplitude_m"] / LENGTH[unit])
     return [escape(label), value, amplitude + (" (end of the range)" if entry.get("at") == "range_end" else ""),
-            told_like(bar, "best_frequency", entry["frequency_Hz"], 6)]
+            told_like(bar, "peak_frequency", entry["frequency_Hz"], 6)]
 
 
 def bracket(best: Mapping[str, Any], unit: str) -> str:
@@ -234,9 +234,9 @@ def optimum(run: Run, data: Data) -> str:
         return f"<p class=best>Best {escape(best['parameter'])} not found: {escape(best.get('message') or '')}.</p>"
     unit, bar = " N" if best["parameter"] == "preload" else " (SI)", best.get("bar") or {}
     amplitude = best["amplitude_m"] / LENGTH[data["unit"]]
-    return (f"<p class=best>Best {escape(best['parameter'])}: <b>{told_with(bar, 'best_value', best['value'])}{unit}</b>, "
-            f"peak {told_with(bar, 'best_amplitude', amplitude)} {data['unit']} at "
-            f"{told_with(bar, 'best_frequency', best['frequency_Hz'], 6)} Hz.</p>" + bracket(best, data["unit"]))
+    return (f"<p class=best>Best {escape(best['parameter'])}: <b>{told_with(bar, 'optimum', best['value'])}{unit}</b>, "
+            f"peak {told_with(bar, 'peak_amplitude', amplitude)} {data['unit']} at "
+            f"{told_with(bar, 'peak_frequency', best['frequency_Hz'], 6)} Hz.</p>" + bracket(best, data["unit"]))
 
 
 def response(run: Run, data: Data) -> str:
