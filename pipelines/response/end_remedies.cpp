@@ -55,11 +55,7 @@ constexpr std::array ends_of_curves{
                "force, stable or not; with more modes.damping_ratio, of kind modal "
                "modal.damping_ratio, motions settle sooner",
                ""},
-    EndOfCurve{
-        Diagnosis::interrupted,
-        "the same command with --resume goes on; where --budget has ended it, the same with more "
-        "of it and without --resume, from the cache",
-        ""},
+    EndOfCurve{Diagnosis::interrupted, "the same command with --resume goes on", ""},
     EndOfCurve{Diagnosis::uncertified,
                "set response.harmonics to another number, or response.method = \"time\"; a contact "
                "many orders of ten stiffer than the structure leaves no digits: is "

@@ -92,6 +92,19 @@ bool tell_time_is_over(const CurveTime& time, solver::ResponseCurve& curve) {
   return true;
 }
 
+constexpr std::string_view more_budget =
+    "give accuracy.budget (--budget) more, and run without --resume: what was finished comes from "
+    "the cache";
+
+/// The same of the time of the whole run.
+bool tell_run_is_over(solver::ResponseCurve& curve) {
+  if (curve.diagnosis != solver::Diagnosis::interrupted) return false;
+  if (interrupt_requested() || !cut_short()) return false;
+  curve.diagnosis = solver::Diagnosis::budget;
+  curve.message += fmt::format("{}accuracy.budget is over", curve.message.empty() ? "" : ": ");
+  return true;
+}
+
 SceneDescription with_one_harmonic(SceneDescription scene) {
   scene.settings.harmonics = {.highest = 1};
   return scene;
@@ -191,7 +204,10 @@ CurveResult traced_within(const CurveTime& time, const ReducedModel& model,
     if (lean.curve.complete) return told_lean(std::move(lean), time);
   }
   const bool by_time = is_over && tell_time_is_over(time, result.curve);
-  tell_remedy(by_time ? time.remedy : remedy_of(result.curve.diagnosis, scene.response->method),
+  const bool by_run = !by_time && tell_run_is_over(result.curve);
+  tell_remedy(by_time  ? time.remedy
+              : by_run ? more_budget
+                       : remedy_of(result.curve.diagnosis, scene.response->method),
               result.curve);
   if (is_over) return result;
   const auto* load = std::get_if<double>(&result.load);
