@@ -123,7 +123,8 @@ struct ContactDescription {
   std::string name;  ///< of its columns and files where there are several; else that of the surface
   std::string key = "contact";  ///< path of its section, for messages: "contact", or "contact[1]"
   std::string surface;
-  std::string place;  ///< "file:line: key" of `surface`, for messages
+  std::string place;       ///< "file:line: key" of `surface`, for messages
+  std::string slip_place;  ///< … of `slip_direction`
   Eigen::Vector3d slip_direction = Eigen::Vector3d::UnitZ();
   Field friction;                      ///< μ over the patch, in p and r from its centroid
   std::optional<Field> preload_field;  ///< shape of the preload; none: uniform

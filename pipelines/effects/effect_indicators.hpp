@@ -36,7 +36,7 @@ struct ContactReach {
 
 /// Of all curves under a load, and of what is searched: the ends of a range of preloads, else the
 /// one load, by the measure of the model.
-/// @throws RefusedError  a gap where the normal stiffness is zero.
+/// @throws RefusedError  a gap, or a load below 0, where the normal stiffness is zero.
 [[nodiscard]] std::vector<double> loads_of(const ReducedModel& model,
                                            const SceneDescription& scene);
 

@@ -353,9 +353,10 @@ fs::path mesh_of(const fs::path& file) {
     if (const fs::path named = of_one_name(meshes, file); !named.empty()) return named;
     throw SceneError(
         fmt::format("{0}: which is its mesh? In {1} are {2} and {3}{4}; name it: `microslip init "
-                    "modes {0} {2}`",
+                    "modes {0} {5}`",
                     file.string(), folder.string(), meshes[0].filename().string(),
-                    meshes[1].filename().string(), meshes.size() > 2 ? ", …" : ""));
+                    meshes[1].filename().string(), meshes.size() > 2 ? ", …" : "",
+                    fs::relative(meshes[0]).string()));
   }
   throw SceneError(fmt::format(
       "{0}: no mesh lies beside it{1}; put there the one file that has the names, or name "

@@ -8,6 +8,7 @@
 #include "pipelines/import/mesher_limits.hpp"
 #include "pipelines/system/scene_error.hpp"
 #include "pipelines/system/temporary_folder.hpp"
+#include "pipelines/text/required_file.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -123,6 +124,7 @@ std::string size_doubt(const StepBody& body) {
 }
 
 void mesh_step_model(const StepModel& model, const fs::path& file) {
+  require_file(model.file, model.place);
   require_unit(model, mesh::step_length_units(model.file));
   const StepBody body = open_step(model.file, model.length_unit);
   if (const std::string doubt = size_doubt(body); !doubt.empty()) {

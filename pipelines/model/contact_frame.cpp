@@ -41,9 +41,9 @@ Eigen::Vector3d any_direction_in_plane(const Eigen::Vector3d& normal) {
 
 void refuse_slip_along_normal(const ContactDescription& contact, const Eigen::Vector3d& q) {
   throw SceneError(
-      fmt::format("{}: {}.slip_direction is along the normal ({:.3g}, {:.3g}, {:.3g}) of \"{}\"; "
+      fmt::format("{}: it is along the normal ({:.3g}, {:.3g}, {:.3g}) of \"{}\"; "
                   "give a direction with a part in the plane",
-                  contact.place, contact.key, q.x(), q.y(), q.z(), contact.surface));
+                  contact.slip_place, q.x(), q.y(), q.z(), contact.surface));
 }
 
 void require_slip_direction(const mesh::Mesh& mesh, const ContactDescription& contact) {
@@ -52,10 +52,10 @@ void require_slip_direction(const mesh::Mesh& mesh, const ContactDescription& co
   const Eigen::Vector3d& x = worst.place;
   const Eigen::Vector3d& q = worst.normal;
   throw SceneError(fmt::format(
-      "{}: {}.slip_direction is along the normal ({:.3g}, {:.3g}, {:.3g}) of \"{}\" at "
+      "{}: it is along the normal ({:.3g}, {:.3g}, {:.3g}) of \"{}\" at "
       "({:.6g}, {:.6g}, {:.6g}) m, to {:.1f} degrees: the curved face has no slip direction there; "
       "give a direction that no place of it faces, or name a part of the face",
-      contact.place, contact.key, q.x(), q.y(), q.z(), contact.surface, x.x(), x.y(), x.z(),
+      contact.slip_place, q.x(), q.y(), q.z(), contact.surface, x.x(), x.y(), x.z(),
       std::asin(worst.sine) * 180.0 / std::numbers::pi));
 }
 

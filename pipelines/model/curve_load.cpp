@@ -33,12 +33,13 @@ std::variant<double, LimitName> load_of(const CurveRequest& request, const Reduc
   if (const auto* limit = std::get_if<LimitName>(&request.load)) return *limit;
   if (std::holds_alternative<StaticPreload>(request.load)) return model.static_preload.value();
   const auto* gap = std::get_if<UniformGap>(&request.load);
-  if (gap == nullptr) return std::get<double>(request.load);
+  const auto* load = std::get_if<double>(&request.load);
+  if (load != nullptr && (*load >= 0.0 || !in_newtons(model))) return *load;
   const double total = total_normal_stiffness(model);
   if (!(total > 0.0)) {
     throw RefusedError(request.place + ": a gap needs a normal contact stiffness, and it is zero");
   }
-  return -gap->width * total;
+  return gap != nullptr ? -gap->width * total : *load;
 }
 
 std::optional<double> gap_of(const std::variant<double, LimitName>& load,

@@ -14,7 +14,7 @@ namespace microslip::pipelines {
 [[nodiscard]] double total_normal_stiffness(const ReducedModel& model);
 
 /// A gap given as a length is −gap·Σ∬k_v dA [N].
-/// @throws RefusedError  a gap where the normal stiffness is zero.
+/// @throws RefusedError  a gap, or a load below 0, where the normal stiffness is zero.
 [[nodiscard]] std::variant<double, LimitName> load_of(const CurveRequest& request,
                                                       const ReducedModel& model);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <numbers>
 #include <set>
 
@@ -62,6 +63,17 @@ bool may_be_absent(std::string_view column) {
   return column.starts_with("phi_v_") || column.starts_with("phi_w_");
 }
 
+/// Of a column of points: the keys name shapes with N in place of the mode.
+std::string unit_of_column(std::string_view column) {
+  const std::string_view stem = column.substr(0, column.find_last_not_of("0123456789") + 1);
+  for (const KeySpec& key : section_spec("modal.point").keys) {
+    const bool is_shape =
+        key.name.ends_with("_N") && stem == key.name.substr(0, key.name.size() - 1);
+    if (key.name == column || is_shape) return std::string(key.unit);
+  }
+  return "1";
+}
+
 /// One number of an inline point; shapes along q and r are zero where they are not given.
 double inline_value(const SectionReader& section, const toml::node& entry,
                     const std::string& column) {
@@ -70,13 +82,23 @@ double inline_value(const SectionReader& section, const toml::node& entry,
     if (may_be_absent(column)) return 0.0;
     section.fail("points", fmt::format("this point has no {}", column), &entry);
   }
-  if (!value->is_number() || !is_of_usable_size(*value->value<double>())) {
+  double number = std::numeric_limits<double>::quiet_NaN();
+  if (value->is_string()) {
+    try {
+      number = to_si(*value->value<std::string>(), unit_of_column(column));
+    } catch (const UnitError& error) {
+      section.fail("points", fmt::format("{}: {}", column, error.what()), value);
+    }
+  } else if (value->is_number()) {
+    number = *value->value<double>();
+  }
+  if (!is_of_usable_size(number)) {
     section.fail(
         "points",
         fmt::format("{}: expected a finite number, 0 or of a size from 1e-100 to 1e100", column),
         value);
   }
-  return *value->value<double>();
+  return number;
 }
 
 /// A list of inline tables as the table a CSV file would give.

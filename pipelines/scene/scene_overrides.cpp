@@ -97,7 +97,8 @@ toml::table& descend(toml::table& table, const Step& step, const std::string& as
     assign(table, step.key, *made.get("x"));
   }
   toml::node* node = table.get(step.key);
-  if (step.index) {
+  const bool is_only_one = step.index == 0U && node->is_table();  // [contact] is contact[0], too
+  if (step.index && !is_only_one) {
     toml::array* list = node->as_array();
     if (list == nullptr || *step.index >= list->size()) {
       refuse(assignment, fmt::format("{} has no entry {}", step.key, *step.index));

@@ -157,6 +157,7 @@ ContactDescription read_contact(SectionReader s, const std::filesystem::path& fo
   contact.name = s.given("name") ? s.text("name") : contact.surface;
   if (s.given("preload_share")) contact.preload_share = s.number("preload_share");
   contact.slip_direction = s.direction("slip_direction");
+  contact.slip_place = s.place("slip_direction");
   FrictionDescription friction = read_friction(s, "friction_coefficient", folder);
   contact.friction = std::move(friction.at_rest);
   rules.friction = friction.law;

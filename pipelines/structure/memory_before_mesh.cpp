@@ -14,6 +14,7 @@
 #include "pipelines/structure/structure_stage.hpp"
 #include "pipelines/system/result_cache.hpp"
 #include "pipelines/system/temporary_folder.hpp"
+#include "pipelines/text/required_file.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -22,6 +23,7 @@ constexpr double least_in_cube = 20.0;  // unknowns, see (1)
 
 double volume_of(const SceneDescription& scene) {
   if (const auto* step = std::get_if<StepModel>(&scene.model)) {
+    require_file(step->file, step->place);
     return open_step(step->file, step->length_unit).geometry.volume;
   }
   return blade_volume(std::get<BladeModel>(scene.model).geometry);

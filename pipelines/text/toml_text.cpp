@@ -119,7 +119,9 @@ toml::source_position place_of(std::string_view text, std::size_t at) {
 std::string complaint(std::string_view text, const std::string& name,
                       const toml::source_position& place, const std::string& what) {
   const std::size_t at = offset_of(place, text);
-  const std::string key = key_at_end_of(text.substr(0, at));
+  const std::string_view line = text.substr(text.substr(0, at).rfind('\n') + 1);  // npos + 1 is 0
+  const bool begins_section = line.starts_with('[');  // the key above it is innocent
+  const std::string key = begins_section ? "" : key_at_end_of(text.substr(0, at));
   const std::string quantity = unquoted_quantity(text, at);
   return fmt::format(
       "{}:{}:{}: {}{}{}", name, place.line, place.column, key, key.empty() ? "" : ": ",
