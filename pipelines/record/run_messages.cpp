@@ -208,6 +208,47 @@ std::string restless_text(const CurveResult& result) {
       result.name, where);
 }
 
+std::string rival_text(const CurveResult& result, const CurveBudget& budget) {
+  constexpr double several = 3.0;  // bars: that of the other peak is not known
+  constexpr double least = 1e-3;
+  const solver::ResponsePoint* told = highest_peak(result.curve);
+  if (told == nullptr || budget.rows.empty() || !budget.has_bar()) return {};
+  const auto reach = [&](const char* goal) {
+    return std::max(several * bar_of(budget.rows, result.name, goal), least);
+  };
+  const double lowest = (1.0 - reach(peak_amplitude_goal)) * told->amplitude;
+  const double beside = reach(peak_frequency_goal) * told->frequency;
+  const solver::ResponsePoint* rival = nullptr;
+  for (const solver::ResponsePoint& one : result.curve.points) {
+    if (one.mark != solver::PointMark::peak || one.amplitude < lowest) continue;
+    if (std::abs(one.frequency - told->frequency) <= beside) continue;
+    if (rival == nullptr || one.amplitude > rival->amplitude) rival = &one;
+  }
+  if (rival == nullptr) return {};
+  return fmt::format(
+      "curve {}: a second peak, {:.6g} m at {:.6g} Hz, is as high to {}: it may be the highest "
+      "with "
+      "what the settings leave out, and the bar is that of the one at {:.6g} Hz",
+      result.name, rival->amplitude, to_hz * rival->frequency,
+      percent_text(1.0 - rival->amplitude / told->amplitude), to_hz * told->frequency);
+}
+
+std::string crossing_text(const solver::Optimum& optimum) {
+  constexpr double near_by = 0.02;  // of the parameter, and of the amplitude
+  constexpr double jump = 0.01;     // of the frequency: one peak moves less
+  const solver::PeakOfParameter& best = optimum.best;
+  for (const solver::PeakOfParameter& one : optimum.trace) {
+    if (std::abs(one.parameter - best.parameter) > near_by * std::abs(best.parameter)) continue;
+    if (std::abs(one.amplitude - best.amplitude) > near_by * best.amplitude) continue;
+    if (std::abs(one.frequency - best.frequency) <= jump * best.frequency) continue;
+    return fmt::format(
+        "two peaks are equally high there, at {:.6g} and {:.6g} Hz: the bar is that of the first, "
+        "and which of both is the higher one may change with what the settings leave out",
+        to_hz * best.frequency, to_hz * one.frequency);
+  }
+  return {};
+}
+
 std::string many_folds_text(const CurveResult& result) {
   constexpr std::ptrdiff_t many = 20;
   const auto& points = result.curve.points;

@@ -31,6 +31,13 @@ namespace microslip::pipelines {
 /// period than the force, or none. Empty: nowhere.
 [[nodiscard]] std::string restless_text(const CurveResult& result);
 
+/// Another peak of the curve that is as high as its highest, to what is known of it: a bar follows
+/// one peak. Empty: there is none, or no bar.
+[[nodiscard]] std::string rival_text(const CurveResult& result, const CurveBudget& budget);
+
+/// The best value lies where one peak falls and another rises. Empty: it does not.
+[[nodiscard]] std::string crossing_text(const solver::Optimum& optimum);
+
 /// Where a curve has so many folds that no sweep follows them. Empty: it has fewer.
 [[nodiscard]] std::string many_folds_text(const CurveResult& result);
 

@@ -522,6 +522,9 @@ void RunRecord::keep_optimum(const ReducedModel& model, const OptimumRequest& re
   progress_.info(fmt::format("{}: {}{}", what, best_text(optimum, unit, budget), beside));
   for (const std::string& note : optimum.notes) progress_.info("optimum: " + note);
   for (const std::string& warning : optimum.warnings) progress_.warning("optimum: " + warning);
+  if (const std::string text = crossing_text(optimum); !text.empty()) {
+    progress_.warning("optimum: " + text);
+  }
   note_optimum(model, request, optimum, budget);
 }
 
@@ -544,6 +547,7 @@ void RunRecord::keep_budget(const CurveBudget& budget, BesideBar left_out,
   if (const std::string text = budget_text(budget); !text.empty()) {
     progress_.info(text + after_bar(left_out));
   }
+  if (const std::string text = rival_text(result, budget); !text.empty()) progress_.warning(text);
   const std::lock_guard lock(mutex_);
   summary_.error_budget.insert(summary_.error_budget.end(), budget.rows.begin(), budget.rows.end());
   left_out_.insert(left_out_.end(), budget.left_out.begin(), budget.left_out.end());

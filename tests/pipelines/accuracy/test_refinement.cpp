@@ -43,6 +43,22 @@ TEST(Refinement, RefinesWhatContributesMostAndNothingElse) {
   EXPECT_EQ(left, "");
 }
 
+TEST(Refinement, KeepsTheToleranceForTheGoalsThatAreAsked) {
+  CurveBudget told = budget({{"cells", 1e-4}});
+  told.rows.push_back({"curve", dissipated_energy_goal, "cells", 0.1, ErrorKind::solved, 1.0});
+  AccuracyRequest accuracy{.tolerance = tolerance};
+  EXPECT_TRUE(is_exact(told, accuracy));
+  accuracy.goals = {dissipated_energy_goal};
+  EXPECT_FALSE(is_exact(told, accuracy));
+  EXPECT_DOUBLE_EQ(largest_bar({told}, accuracy.goals), 0.1);
+  SceneDescription scene = blade();
+  scene.accuracy = accuracy;
+  std::string left;
+  const auto step = refinement(scene, {told}, tolerance, spent, left);
+  ASSERT_TRUE(step.has_value());
+  EXPECT_GT(step->scene.settings.patches[0].n_points, scene.settings.patches[0].n_points);
+}
+
 TEST(Refinement, SharesTheToleranceAmongSources) {
   std::string left;
   const auto step =

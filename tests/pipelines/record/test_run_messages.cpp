@@ -34,6 +34,36 @@ CurveResult with_end(double peak, double end) {
   return result;
 }
 
+CurveBudget bar_of_amplitude(double bar) {
+  CurveBudget budget;
+  budget.rows.push_back({"two", peak_amplitude_goal, "harmonics", bar});
+  return budget;
+}
+
+TEST(RunMessages, APeakThatIsAsHighToWhatIsKnownIsNamed) {
+  CurveResult result = with_end(2.0, 0.1);
+  result.name = "two";
+  solver::ResponsePoint second = result.curve.points[1];
+  second.frequency *= 1.1;
+  second.amplitude = 1.99;
+  result.curve.points.push_back(second);
+  const std::string text = rival_text(result, bar_of_amplitude(2e-3));
+  EXPECT_NE(text.find("curve two: a second peak, 1.99 m at"), std::string::npos) << text;
+  EXPECT_EQ(rival_text(result, bar_of_amplitude(1e-3)), "");
+  EXPECT_EQ(rival_text(result, {}), "");
+}
+
+TEST(RunMessages, ABestValueWhereTwoPeaksCrossSaysSo) {
+  solver::Optimum optimum;
+  optimum.best = {.parameter = 1.0, .frequency = 100.0, .amplitude = 2.0};
+  optimum.trace = {{.parameter = 0.99, .frequency = 100.1, .amplitude = 2.001}, optimum.best};
+  EXPECT_EQ(crossing_text(optimum), "");
+  optimum.trace.push_back({.parameter = 1.01, .frequency = 95.0, .amplitude = 2.001});
+  EXPECT_NE(crossing_text(optimum).find("two peaks are equally high there"), std::string::npos);
+  optimum.trace.back().parameter = 1.1;
+  EXPECT_EQ(crossing_text(optimum), "");
+}
+
 TEST(RunMessages, ACurveNamesWhatIsLargestBesideItsPeak) {
   const std::string lower = outcome_text(with_end(2.0, 1.0));
   EXPECT_NE(lower.find("; largest 2 m at"), std::string::npos) << lower;

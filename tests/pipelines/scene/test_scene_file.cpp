@@ -610,6 +610,8 @@ TEST(SceneFile, LawsOfContactAreRead) {
   EXPECT_DOUBLE_EQ(blade.contacts.front().rules.roughness->height(), 5e-6);
   ASSERT_TRUE(blade.contacts.front().preload_field.has_value());
   EXPECT_EQ(complaint(blade.complete_toml), "");
+  const SceneDescription only_one = parse(blade_text, {"contact[0].tangential_stiffness=1e12"});
+  EXPECT_EQ(only_one.contacts[0].tangential_stiffness, 1e12);
   const SceneDescription field = parse(blade_text, {"contact.friction_coefficient=0.3+0.1*p",
                                                     "contact.preload_moment=[\"2 N*m\", 0]"});
   const Eigen::VectorXd p = Eigen::Vector2d(0.0, 1.0);
