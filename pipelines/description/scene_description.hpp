@@ -23,6 +23,7 @@
 #include "mesh/blade_geometry.hpp"
 #include "pipelines/description/discretisation.hpp"
 #include "pipelines/description/field.hpp"
+#include "pipelines/description/goal_names.hpp"
 
 namespace microslip::pipelines {
 
@@ -233,9 +234,8 @@ struct ResponseDescription {
 struct AccuracyRequest {
   bool error_budget = true;  ///< each choice of the discretisation is refined at the peaks
   double tolerance = 0.0;    ///< of the goals, relative; 0: settings as written
-  /// What the tolerance is kept for (response/error_row.hpp): a best value is judged by it, not
-  /// refined.
-  std::vector<std::string> goals{"peak_amplitude", "peak_frequency"};
+  /// What the tolerance is kept for: a best value is judged by it, not refined.
+  std::vector<std::string> goals{peak_amplitude_goal, peak_frequency_goal};
   double budget = std::numeric_limits<double>::infinity();  ///< wall time of a run [s]
   bool extrapolation = true;  ///< of modes to elements of no size, where a tolerance is asked for
 };

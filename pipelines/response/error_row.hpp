@@ -7,11 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "pipelines/description/goal_names.hpp"
+
 namespace microslip::pipelines {
 
-inline constexpr const char* peak_amplitude_goal = "peak_amplitude";
-inline constexpr const char* peak_frequency_goal = "peak_frequency";
-inline constexpr const char* dissipated_energy_goal = "dissipated_energy";  ///< at the peak
 /// Of all peaks and folds of a curve, the one that moves most; no part of a bar.
 inline constexpr const char* marked_amplitude_goal = "marked_amplitude";
 inline constexpr const char* marked_frequency_goal = "marked_frequency";
@@ -33,7 +32,6 @@ inline constexpr const char* amplitude_there_goal = "amplitude_there";
 /// Of an amplitude at its frequency, over the highest of the curve, with what the change of the
 /// peak makes there: the largest of a sample. No part of a bar.
 inline constexpr const char* along_curve_goal = "along_curve";
-inline constexpr const char* optimum_goal = "optimum";  ///< a best value
 inline constexpr const char* optimum_name = "optimum";  ///< in place of a curve's, of a best value
 
 enum class ErrorKind : std::uint8_t {
@@ -45,7 +43,7 @@ enum class ErrorKind : std::uint8_t {
 
 struct ErrorRow {
   std::string curve;  ///< its name, or "optimum"
-  std::string goal;   ///< one of the above
+  std::string goal;   ///< one of the above, or of goal_names.hpp
   /// Mesh, basis, cells, fit, harmonics, second_direction, instants, newton, eigensolver.
   std::string source;
   double effect =

@@ -12,7 +12,7 @@
 #include <toml++/toml.h>
 
 #include "contact/phase.hpp"
-#include "pipelines/response/error_row.hpp"
+#include "pipelines/description/goal_names.hpp"
 #include "pipelines/scene/bar_scene.hpp"
 #include "pipelines/scene/block_scene.hpp"
 #include "pipelines/scene/chain_scene.hpp"

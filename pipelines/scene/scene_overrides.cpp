@@ -97,7 +97,8 @@ toml::table& descend(toml::table& table, const Step& step, const std::string& as
     assign(table, step.key, *made.get("x"));
   }
   toml::node* node = table.get(step.key);
-  const bool is_only_one = step.index == 0U && node->is_table();  // [contact] is contact[0], too
+  // [contact] stands for one [[contact]].
+  const bool is_only_one = step.key == "contact" && step.index == 0U && node->is_table();
   if (step.index && !is_only_one) {
     toml::array* list = node->as_array();
     if (list == nullptr || *step.index >= list->size()) {
