@@ -88,8 +88,8 @@ struct Patch {
   /// Vertices of each cell, n_cells × 3 or 4; cell c belongs to contact point c. No rows:
   /// points only.
   Eigen::Matrix<Eigen::Index, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> connectivity;
-  int fit_degree = -1;        ///< of the mode shapes; −1: no fit
-  Eigen::VectorXd fit_error;  ///< per mode; empty without a fit
+  int fit_degree = -1;        ///< of the mode shapes; −1: they are interpolated
+  Eigen::VectorXd fit_error;  ///< per mode; empty where none was tried
   LoadMeasure load_measure = LoadMeasure::force;
   double load_share = 1.0;               ///< relative to the other patches: of a load that presses
   std::vector<TiltedArea> tilted_areas;  ///< where moments act beside the load

@@ -171,15 +171,18 @@ void warn_of_the_fit(const contact::Patch& patch, const mesh::Mesh& mesh,
         "the sides apart: name parts of the face, or take more modes",
         contact.surface, plane.largest_angle * 180.0 / std::numbers::pi));
   }
-  if (patch.fit_error.size() > 0 && patch.fit_error.maxCoeff() > 0.05) {
+  if (is_fit_poor(patch)) {
     Eigen::Index mode = 0;
     const double worst = patch.fit_error.maxCoeff(&mode);
     const bool is_static = mode >= n_modes;
     warnings.push_back(fmt::format(
-        "fit-poor: the fitted field of {} {} errs by {:.1f} % on the patch (degree {}); "
-        "contact.fit = \"none\" interpolates instead",
+        "fit-poor: the fitted field of {} {} of \"{}\" errs by {:.1f} % on the patch{}",
         is_static ? "static shape" : "mode", is_static ? mode + 1 - n_modes : mode + 1,
-        100.0 * worst, patch.fit_degree));
+        contact.surface, 100.0 * worst,
+        patch.fit_degree < 0 ? ": its elements are interpolated instead"
+                             : fmt::format(" (degree {}); contact.fit = \"none\" interpolates "
+                                           "instead, as \"auto\" would",
+                                           patch.fit_degree)));
   }
 }
 

@@ -127,21 +127,33 @@ void set_plane_shapes(contact::Patch& patch, const SampledFace& face, const Patc
   const contact::ModalShapes nodal{along(shapes, surface.nodes, frame.plane.row(0)),
                                    along(shapes, surface.nodes, frame.plane.row(1)),
                                    along(shapes, surface.nodes, frame.plane.row(2))};
-  if (settings.fit == PatchSettings::Fit::none) {
+  const auto take_elements = [&] {
     patch.cells.shapes = interpolate(sampling.to_centres, nodal);
     patch.vertices.shapes = interpolate(sampling.to_vertices, nodal);
+  };
+  if (settings.fit == PatchSettings::Fit::none) {
+    take_elements();
     return;
   }
   const PatchPlane plane{mesh::fit_plane(mesh.nodes(), surface).centroid, frame.plane};
   const contact::ModalContactField field =
       fitted_field(mesh, surface, sampling, settings, nodal, plane);
-  patch.fit_degree = field.degree();
   patch.fit_error = field.fit_error();
+  if (settings.fit == PatchSettings::Fit::automatic && is_fit_poor(patch)) {
+    take_elements();
+    return;
+  }
+  patch.fit_degree = field.degree();
   patch.cells.shapes = shapes_at(field, sampling.centres, plane);
   patch.vertices.shapes = shapes_at(field, sampling.vertices, plane);
 }
 
 }  // namespace
+
+bool is_fit_poor(const contact::Patch& patch) {
+  constexpr double poor = 0.05;
+  return patch.fit_error.size() > 0 && patch.fit_error.maxCoeff() > poor;
+}
 
 void set_shapes(contact::Patch& patch, const SampledFace& face, const PatchSettings& settings,
                 const Eigen::MatrixXd& shapes) {

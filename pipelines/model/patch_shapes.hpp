@@ -20,8 +20,12 @@ struct SampledFace {
   const mesh::FaceFrame& frame;
 };
 
+/// A field fitted to the shapes errs by more than 5 % of one of them.
+[[nodiscard]] bool is_fit_poor(const contact::Patch& patch);
+
 /// Shapes at the cells and vertices of a patch, and with them its own axes of places,
-/// or degree and error of the fit.
+/// or degree and error of the fit. A poor fit that nobody asked for is not taken, the degree is −1
+/// then: elements are interpolated.
 /// @param settings  of the fit, which a face with axes at every place does not have.
 /// @param shapes    3 n_nodes × n_modes [1/√kg].
 void set_shapes(contact::Patch& patch, const SampledFace& face, const PatchSettings& settings,

@@ -467,7 +467,8 @@ constexpr std::array contact_keys{
     KeySpec{"tangential_stiffness", other, "N/m^3", "", 0.0, unbounded, false, "the same along p"},
     KeySpec{
         "fit", other, "", "\"auto\"", 0, 0, false,
-        "degree of the fitted mode shapes, \"auto\", or \"none\" (finite-element interpolation)"},
+        "degree of the fitted mode shapes, \"auto\", or \"none\" (finite-element interpolation, "
+        "which \"auto\" takes where the fit is poor)"},
     wear_key,
     KeySpec{
         "points", integer, "", "", 1, 10'000'000, false,

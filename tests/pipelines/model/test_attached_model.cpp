@@ -16,9 +16,11 @@
 #include "pipelines/description/curve_request.hpp"
 #include "pipelines/effects/contact_effects.hpp"
 #include "pipelines/effects/model_family.hpp"
+#include "pipelines/model/contact_frame.hpp"
 #include "pipelines/model/contact_stage.hpp"
 #include "pipelines/model/curve_load.hpp"
 #include "pipelines/model/nodal_load.hpp"
+#include "pipelines/model/patch_shapes.hpp"
 #include "pipelines/response/highest_peak.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/scene/scene_file.hpp"
@@ -90,6 +92,30 @@ std::vector<std::string> turned(double degrees, const std::string& residual) {
   return {
       fmt::format("contact.slip_direction=[0, {:.17g}, {:.17g}]", std::cos(angle), std::sin(angle)),
       "modes.residual=" + residual, "effects.second_direction=on"};
+}
+
+// Row 20: no polynomial follows a shape that jumps from node to node.
+TEST(PatchShapes, APoorFitIsTakenOnlyWhereItIsAsked) {
+  const mesh::Mesh mesh = cantilever();
+  const ContactDescription contact = scene_with({}).contacts[0];
+  const mesh::Surface& surface = mesh.surface(contact.surface);
+  const mesh::SurfaceSampling sampling = mesh::sample_surface(mesh.nodes(), surface, 20);
+  const mesh::FaceFrame frame = face_frame(mesh, contact);
+  Eigen::MatrixXd shapes = Eigen::MatrixXd::Zero(3 * mesh.n_nodes(), 1);
+  for (Eigen::Index i = 0; i < shapes.rows(); ++i) shapes(i, 0) = i % 5 < 2 ? 1.0 : -1.0;
+  const auto patch_with = [&](PatchSettings::Fit fit, int degree = 0) {
+    contact::Patch patch;
+    set_shapes(patch, {mesh, surface, sampling, frame}, {.fit = fit, .fit_degree = degree}, shapes);
+    return patch;
+  };
+  const contact::Patch automatic = patch_with(PatchSettings::Fit::automatic);
+  EXPECT_TRUE(is_fit_poor(automatic));
+  EXPECT_EQ(automatic.fit_degree, -1);
+  EXPECT_EQ(automatic.cells.shapes.u, patch_with(PatchSettings::Fit::none).cells.shapes.u);
+  const contact::Patch asked = patch_with(PatchSettings::Fit::degree, 1);
+  EXPECT_EQ(asked.fit_degree, 1);
+  EXPECT_GT((asked.cells.shapes.u - automatic.cells.shapes.u).norm(),
+            0.1 * automatic.cells.shapes.u.norm());
 }
 
 // The cone of friction is round and the springs are the same all around: nothing tells p from r.
