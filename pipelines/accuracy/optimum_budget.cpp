@@ -97,6 +97,20 @@ double lowest_changed(const Values& amplitudes, const Values& effect) {
   return std::ranges::min(raised) / amplitudes[middle] - 1.0;
 }
 
+/// Of both peaks where they cross, each with the effect on its own side.
+double crossing_changed(const Values& amplitudes, const Values& effect) {
+  const auto raised = [&](std::size_t i) { return std::log1p(std::max(effect[i], -0.99)); };
+  const auto slope_to = [&](std::size_t i) {
+    return std::log(amplitudes[i] / amplitudes[middle]) / std::log(neighbours[i]);
+  };
+  const std::size_t last = neighbours.size() - 1;
+  const double turn = slope_to(last) - slope_to(0);
+  if (!(turn > 0.0)) return 0.0;
+  return std::expm1((slope_to(last) * raised(0) - slope_to(0) * raised(last)) / turn);
+}
+
+double further(double a, double b) { return std::abs(a) > std::abs(b) ? a : b; }
+
 /// Of one goal by source.
 std::map<std::string, Effects> by_source(const std::vector<CurveBudget>& budgets,
                                          const char* goal) {
@@ -144,8 +158,21 @@ SceneDescription with_harmonics_of(SceneDescription scene, const solver::Optimum
 
 }  // namespace
 
+std::optional<double> frequency_of_crossing(const solver::Optimum& optimum) {
+  constexpr double near_by = 0.02;  // of the parameter, and of the amplitude
+  constexpr double jump = 0.01;     // of the frequency: one peak moves less
+  const solver::PeakOfParameter& best = optimum.best;
+  for (const solver::PeakOfParameter& one : optimum.trace) {
+    const bool is_near = std::abs(one.parameter - best.parameter) <= near_by * best.parameter &&
+                         std::abs(one.amplitude - best.amplitude) <= near_by * best.amplitude;
+    const bool is_other = std::abs(one.frequency - best.frequency) > jump * best.frequency;
+    if (is_near && is_other) return one.frequency;
+  }
+  return std::nullopt;
+}
+
 CurveBudget budget_about_best(const std::vector<CurveBudget>& budgets,
-                              const PeaksAboutBest& amplitudes_given) {
+                              const PeaksAboutBest& amplitudes_given, std::optional<double> jump) {
   const std::map<std::string, Effects> frequencies = by_source(budgets, peak_frequency_goal);
   const std::map<std::string, Effects> energies = by_source(budgets, dissipated_energy_goal);
   CurveBudget result;
@@ -170,7 +197,9 @@ CurveBudget budget_about_best(const std::vector<CurveBudget>& budgets,
       result.rows.push_back({optimum_name, goal, source, effect, ErrorKind::solved, seconds});
     };
     add(optimum_goal, shift(amplitudes_given, *known));
-    add(peak_amplitude_goal, lowest_changed(amplitudes_given, *known));
+    const double lowest = lowest_changed(amplitudes_given, *known);
+    add(peak_amplitude_goal,
+        jump ? further(crossing_changed(amplitudes_given, *known), lowest) : lowest);
     const auto of_frequency = all_known(frequencies.at(source));
     add(peak_frequency_goal, of_frequency ? (*of_frequency)[middle] : 0.0);
     if (!result.energy_ratio) continue;
@@ -178,6 +207,9 @@ CurveBudget budget_about_best(const std::vector<CurveBudget>& budgets,
     add(dissipated_energy_goal, of_energy != energies.end() && of_energy->second[middle]
                                     ? *of_energy->second[middle]
                                     : *result.energy_ratio * (*known)[middle]);
+  }
+  if (jump && !result.rows.empty()) {
+    result.rows.push_back({optimum_name, peak_frequency_goal, "continuation", *jump});
   }
   result.unknown = {unknown.begin(), unknown.end()};
   return result;
@@ -202,7 +234,10 @@ CurveBudget optimum_budget(const ReducedModel& model, const SceneDescription& sc
   });
   if (interrupt_requested() || cut_short()) return {};
   if (!are_those_followed(amplitudes, optimum)) return {};
-  return budget_about_best(budgets, amplitudes);
+  const std::optional<double> other = frequency_of_crossing(optimum);
+  return budget_about_best(
+      budgets, amplitudes,
+      other ? std::optional(*other / optimum.best.frequency - 1.0) : std::nullopt);
 }
 
 }  // namespace microslip::pipelines

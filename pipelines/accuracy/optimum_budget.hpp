@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "pipelines/accuracy/error_budget.hpp"
@@ -20,6 +21,9 @@ namespace microslip::pipelines {
 ///
 /// exact where two peaks cross at p, twice as far as it goes where one has a minimum there; at most
 /// to the neighbours. The lowest amplitude becomes that of the lowest of the three peaks A (1 + e).
+/// Where two peaks cross at p it becomes that of the crossing, log(A'/A) = (s₊ log(1 + e₋) −
+/// s₋ log(1 + e₊)) / (s₊ − s₋), if that is more, and its frequency may be that of the other peak:
+/// a row of the source `continuation`.
 /// Relative effects, goals optimum, peak_amplitude, peak_frequency and, where
 /// friction dissipates there, dissipated_energy.
 /// @param jobs  curves side by side, ≥ 1.
@@ -29,12 +33,18 @@ namespace microslip::pipelines {
                                          const RicherModels& richer, const solver::Optimum& optimum,
                                          int jobs);
 
+/// Of the other peak where two are equally high at the best value, one that falls with it and one
+/// that rises [rad/s]. Empty: there is one alone.
+[[nodiscard]] std::optional<double> frequency_of_crossing(const solver::Optimum& optimum);
+
 /// Highest peaks of the curves at 0.84 p, p and 1.19 p [m].
 using PeaksAboutBest = std::array<double, 3>;
 
 /// The rows of the best value from those of the three curves. A source that one of them does not
 /// tell has there the effect it has beside it, the larger one; which two do not tell is unknown.
+/// @param jump  where two peaks cross: from the frequency of the one to that of the other, relative.
 [[nodiscard]] CurveBudget budget_about_best(const std::vector<CurveBudget>& budgets,
-                                            const PeaksAboutBest& amplitudes);
+                                            const PeaksAboutBest& amplitudes,
+                                            std::optional<double> jump = std::nullopt);
 
 }  // namespace microslip::pipelines

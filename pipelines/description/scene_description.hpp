@@ -227,7 +227,7 @@ struct ResponseDescription {
   bool limits = true;                      ///< modal scenes: free and stuck curves as well
   std::optional<OptimumRequest> optimum;
   std::vector<MapEntry> maps;
-  int map_phases = 72;
+  int map_phases = 24;
 };
 
 /// [accuracy]

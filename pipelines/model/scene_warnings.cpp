@@ -29,9 +29,14 @@ bool is_excited(const SceneDescription& scene) {
     sum += std::polar(1.0, phase) * (force.amplitude * force.direction);
     size = std::max(size, std::abs(force.amplitude));
   }
-  constexpr double rounding = 1e-12;
+  constexpr double nothing = 1e-12;
   return std::ranges::any_of(sums,
-                             [&](const auto& one) { return one.second.norm() > rounding * size; });
+                             [&](const auto& one) { return one.second.norm() > nothing * size; });
+}
+
+Eigen::Index points_without_area(const SceneDescription& scene) {
+  const auto* modal = std::get_if<ModalModel>(&scene.model);
+  return modal != nullptr ? (modal->weights.array() == 0.0).count() : 0;
 }
 
 /// A mode that vibrates without damping.
@@ -61,6 +66,10 @@ std::string harmonics_question(const SceneDescription& scene) {
 
 std::vector<std::string> scene_warnings(const SceneDescription& scene) {
   std::vector<std::string> warnings;
+  if (const auto n = points_without_area(scene); n > 0) {
+    warnings.push_back(fmt::format("modal.points: {} of {} have weight 0, and do nothing", n,
+                                   std::get<ModalModel>(scene.model).weights.size()));
+  }
   for (const contact::SurfaceRules& rules : surface_rules(scene)) {
     const auto& law = rules.friction;
     if (!law) continue;

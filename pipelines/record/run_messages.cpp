@@ -10,6 +10,7 @@
 
 #include "contact/contact_force.hpp"
 #include "fem/slepc_session.hpp"
+#include "pipelines/accuracy/optimum_budget.hpp"
 #include "pipelines/response/highest_peak.hpp"
 #include "pipelines/text/effect_table.hpp"
 #include "pipelines/text/rounded.hpp"
@@ -234,19 +235,12 @@ std::string rival_text(const CurveResult& result, const CurveBudget& budget) {
 }
 
 std::string crossing_text(const solver::Optimum& optimum) {
-  constexpr double near_by = 0.02;  // of the parameter, and of the amplitude
-  constexpr double jump = 0.01;     // of the frequency: one peak moves less
-  const solver::PeakOfParameter& best = optimum.best;
-  for (const solver::PeakOfParameter& one : optimum.trace) {
-    if (std::abs(one.parameter - best.parameter) > near_by * std::abs(best.parameter)) continue;
-    if (std::abs(one.amplitude - best.amplitude) > near_by * best.amplitude) continue;
-    if (std::abs(one.frequency - best.frequency) <= jump * best.frequency) continue;
-    return fmt::format(
-        "two peaks are equally high there, at {:.6g} and {:.6g} Hz: the bar is that of the first, "
-        "and which of both is the higher one may change with what the settings leave out",
-        to_hz * best.frequency, to_hz * one.frequency);
-  }
-  return {};
+  const std::optional<double> other = frequency_of_crossing(optimum);
+  if (!other) return {};
+  return fmt::format(
+      "two peaks are equally high there, at {:.6g} and {:.6g} Hz: which of both is the higher one "
+      "may change with what the settings leave out",
+      to_hz * optimum.best.frequency, to_hz * *other);
 }
 
 std::string many_folds_text(const CurveResult& result) {

@@ -1,6 +1,7 @@
 // What a best preload may be wrong by, beside what it is wrong by.
 #include "pipelines/accuracy/optimum_budget.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <optional>
@@ -89,6 +90,20 @@ TEST(OptimumBudget, DoesNotAverageAwayASourceThatTheBestCurveCannotTell) {
       budget_about_best({of_mesh({}), of_mesh({}), of_mesh(-0.015)}, {1.1, 1.0, 1.1});
   EXPECT_TRUE(one.rows.empty());
   EXPECT_EQ(one.unknown, std::vector<std::string>{"mesh"});
+}
+
+// Two straight lines in log A over log p, the one that falls raised by 2 %: by hand.
+TEST(OptimumBudget, FollowsTheCrossingOfTwoPeaks) {
+  const double falls = -0.5;
+  const double rises = 1.5;
+  const std::array amplitudes{std::pow(0.84, falls), 1.0, std::pow(1.19, rises)};
+  const std::vector<CurveBudget> budgets{of_mesh(0.02), of_mesh(0.0), of_mesh(0.0)};
+  const CurveBudget budget = budget_about_best(budgets, amplitudes, -0.05);
+  const double crossing = std::exp(rises / (rises - falls) * std::log(1.02)) - 1.0;
+  EXPECT_NEAR(told(budget, peak_amplitude_goal), crossing, 1e-12);
+  EXPECT_NEAR(told(budget, optimum_goal), std::exp(std::log(1.02) / (rises - falls)) - 1.0, 1e-12);
+  EXPECT_NEAR(told(budget, peak_frequency_goal), 0.05, 1e-12);
+  EXPECT_NEAR(told(budget_about_best(budgets, amplitudes), peak_amplitude_goal), 0.0, 1e-12);
 }
 
 TEST(OptimumBudget, HasNoRowsWhereNothingIsFound) {
