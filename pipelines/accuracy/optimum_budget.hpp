@@ -42,7 +42,7 @@ using PeaksAboutBest = std::array<double, 3>;
 
 /// The rows of the best value from those of the three curves. A source that one of them does not
 /// tell has there the effect it has beside it, the larger one; which two do not tell is unknown.
-/// @param jump  where two peaks cross: from the frequency of the one to that of the other, relative.
+/// @param jump  where two peaks cross: from one frequency to the other, relative.
 [[nodiscard]] CurveBudget budget_about_best(const std::vector<CurveBudget>& budgets,
                                             const PeaksAboutBest& amplitudes,
                                             std::optional<double> jump = std::nullopt);
