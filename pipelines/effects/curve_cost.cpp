@@ -34,8 +34,10 @@ constexpr double of_a_start = 20.0;  // at a single frequency
 constexpr double of_a_start_beside_a_curve = 60.0;
 // Of a curve: five richer models, one of four times the points.
 constexpr double of_error_rows = 450.0;
-constexpr double of_error_rows_of_chosen = 1500.0;  // peaks have more harmonics than their curves
-constexpr double rows_of_a_linear_curve = 0.2;      // of others: no point is awake
+// Peaks have more harmonics than their curves; with a tolerance steps tell what is a small part.
+constexpr double of_error_rows_of_chosen = 1500.0;
+constexpr double of_error_rows_to_a_tolerance = 700.0;
+constexpr double rows_of_a_linear_curve = 0.2;  // of others: no point is awake
 // Of a search for a best value; of one that may end sooner, with its error.
 constexpr double of_a_search = 18'000.0;
 constexpr double of_a_short_search = 12'000.0;
@@ -398,7 +400,9 @@ ResponseSeconds response_seconds(const SceneDescription& scene, const CurveEffec
       const bool meshed = !scene.contacts.empty();
       const double in_plane = effects.second_direction ? 2.0 : 1.0;
       const double of_rows =
-          in_plane * (effects.chosen_harmonics ? of_error_rows_of_chosen : of_error_rows);
+          in_plane * (!effects.chosen_harmonics        ? of_error_rows
+                      : scene.accuracy.tolerance > 0.0 ? of_error_rows_to_a_tolerance
+                                                       : of_error_rows_of_chosen);
       // What one harmonic leaves out is looked at along the whole curve.
       const double rows = meshed                      ? of_rows * evaluation
                           : effects.several_harmonics ? 0.0

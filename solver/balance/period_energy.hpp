@@ -18,7 +18,13 @@ namespace microslip::solver {
 /// W_damp [J], ≥ 0.
 [[nodiscard]] double damping_work(const Harmonics& q, const Scene& scene, double frequency);
 
-/// Of a solution of the balance; one evaluation of its contact, events located.
+/// By friction [J]: the work of the contact's force, or where its law has no such identity (rough
+/// surfaces, ModalForce::work_error()) what slides.
+/// @param work  of the force.   @param slip_work  of ModalForce::report().
+[[nodiscard]] double dissipated(HarmonicBalance& balance, const Harmonics& q, double frequency,
+                                double work, double slip_work);
+
+/// Of a solution of the balance; two evaluations of its contact.
 /// @param x          unknowns of `balance`.
 /// @param frequency  ω [rad/s].
 [[nodiscard]] PeriodEnergy period_energy(HarmonicBalance& balance, const Eigen::VectorXd& x,

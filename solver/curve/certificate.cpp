@@ -92,7 +92,9 @@ ResponsePoint certified_point(HarmonicBalance& balance, const NewtonResult& solu
   const double excited = excited_work(balance, point.q);
   const double damped = damping_work(point.q, scene, frequency);
   const double rubbed = period_work(point.q, balance.harmonics(solution.evaluation.contact_force));
-  point.energy = {.friction = point.report.slip_work, .damping = damped};
+  point.energy = {
+      .friction = dissipated(balance, point.q, frequency, rubbed, point.report.slip_work),
+      .damping = damped};
   const double exchanged = exchanged_work(balance, point.q, excited, damped + rubbed);
   if (exchanged > 0.0) {
     point.energy_imbalance = std::abs(excited - damped - rubbed) / exchanged;

@@ -58,6 +58,7 @@ ContactDescription contact_on(const char* surface, const Eigen::Vector3d& slip) 
   ContactDescription contact;
   contact.surface = surface;
   contact.place = "scene.toml:9: contact.surface";
+  contact.slip_place = "scene.toml:10: contact.slip_direction";
   contact.slip_direction = slip;
   return contact;
 }
@@ -97,7 +98,7 @@ TEST(ContactFacesHard, SlipAlongTheNormalOfOnePlaceIsRefusedWithItsPlace) {
   const mesh::Mesh bulging = bulging_box(0.3);  // its top and its corners look along x
   EXPECT_EQ(refusal_of(bulging, contact_on("x1", Eigen::Vector3d::UnitY())), "accepted");
   const std::string top = refusal_of(bulging, contact_on("x1", Eigen::Vector3d::UnitX()));
-  EXPECT_TRUE(top.starts_with("scene.toml:9: ")) << top;
+  EXPECT_TRUE(top.starts_with("scene.toml:10: ")) << top;
   EXPECT_NE(top.find("slip_direction: it is along the normal (1, "), std::string::npos) << top;
   EXPECT_NE(top.find("at (1, 0, 0) m"), std::string::npos) << top;
 }
@@ -121,7 +122,7 @@ TEST(ContactFacesHard, SlipAlongTheNormalIsRefusedWithItsPlace) {
   const std::string along = refusal<SceneError>([&] {
     static_cast<void>(contact_frame(bulging_box(0.0), contact_on("x1", Eigen::Vector3d::UnitX())));
   });
-  EXPECT_TRUE(along.starts_with("scene.toml:9: ")) << along;
+  EXPECT_TRUE(along.starts_with("scene.toml:10: ")) << along;
   EXPECT_NE(along.find("slip_direction: it is along the normal (1, "), std::string::npos) << along;
 }
 
