@@ -1,6 +1,7 @@
 #include "pipelines/structure/larger_elements.hpp"
 
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -9,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include <dlfcn.h>
 #include <gtest/gtest.h>
 
 #include "pipelines/scene/scene_file.hpp"
@@ -82,6 +84,10 @@ class LargerElementsBeside : public testing::Test {
  protected:
   void SetUp() override {
     if (describe_machine().cores < 2) GTEST_SKIP() << "one core";
+    // The program takes other kernels than this process where a processor is newer than OpenBLAS.
+    using CoreName = char*();
+    auto* name = reinterpret_cast<CoreName*>(dlsym(RTLD_DEFAULT, "openblas_get_corename"));
+    if (name != nullptr) ::setenv("OPENBLAS_CORETYPE", name(), 1);
   }
 };
 
