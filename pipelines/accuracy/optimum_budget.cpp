@@ -77,17 +77,39 @@ bool are_those_followed(const Values& amplitudes, const solver::Optimum& optimum
   return true;
 }
 
-/// Where the lowest peak goes, over the best preload, less 1: from where log A falls to where it
-/// rises, each side raised by an effect of its own.
-double shift(const Values& amplitudes, const Values& effect) {
-  const auto raised = [&](std::size_t i) { return std::log1p(std::max(effect[i], -0.99)); };
-  const auto slope_to = [&](std::size_t i) {
+/// log A over log p: the line that falls to the best preload and the one that rises from it, each
+/// raised by an effect of its own.
+struct TwoSides {
+  double falls, rises;               ///< slopes
+  double raised_left, raised_right;  ///< log(1 + e)
+
+  TwoSides(const Values& amplitudes, const Values& effect)
+      : falls(slope_to(amplitudes, 0)),
+        rises(slope_to(amplitudes, neighbours.size() - 1)),
+        raised_left(std::log1p(std::max(effect.front(), -0.99))),
+        raised_right(std::log1p(std::max(effect.back(), -0.99))) {}
+
+  [[nodiscard]] double turn() const { return rises - falls; }
+
+ private:
+  static double slope_to(const Values& amplitudes, std::size_t i) {
     return std::log(amplitudes[i] / amplitudes[middle]) / std::log(neighbours[i]);
-  };
-  const double turn = slope_to(neighbours.size() - 1) - slope_to(0);
+  }
+};
+
+/// Where the lowest peak goes, over the best preload, less 1.
+double shift(const TwoSides& sides) {
   const double farthest = std::log(neighbours.back());
-  const double way = (raised(0) - raised(neighbours.size() - 1)) / turn;
-  return std::expm1(turn > 0.0 ? std::clamp(way, -farthest, farthest) : farthest);
+  if (!(sides.turn() > 0.0)) return std::expm1(farthest);
+  const double way = (sides.raised_left - sides.raised_right) / sides.turn();
+  return std::expm1(std::clamp(way, -farthest, farthest));
+}
+
+/// What both peaks are where they cross, over what they were, less 1.
+double crossing_changed(const TwoSides& sides) {
+  if (!(sides.turn() > 0.0)) return 0.0;
+  return std::expm1((sides.rises * sides.raised_left - sides.falls * sides.raised_right) /
+                    sides.turn());
 }
 
 /// Of the lowest peak, which is that of a neighbour where the effect there makes it so.
@@ -95,18 +117,6 @@ double lowest_changed(const Values& amplitudes, const Values& effect) {
   Values raised = amplitudes;
   for (std::size_t i = 0; i < raised.size(); ++i) raised[i] *= 1.0 + std::max(effect[i], -0.99);
   return std::ranges::min(raised) / amplitudes[middle] - 1.0;
-}
-
-/// Of both peaks where they cross, each with the effect on its own side.
-double crossing_changed(const Values& amplitudes, const Values& effect) {
-  const auto raised = [&](std::size_t i) { return std::log1p(std::max(effect[i], -0.99)); };
-  const auto slope_to = [&](std::size_t i) {
-    return std::log(amplitudes[i] / amplitudes[middle]) / std::log(neighbours[i]);
-  };
-  const std::size_t last = neighbours.size() - 1;
-  const double turn = slope_to(last) - slope_to(0);
-  if (!(turn > 0.0)) return 0.0;
-  return std::expm1((slope_to(last) * raised(0) - slope_to(0) * raised(last)) / turn);
 }
 
 double further(double a, double b) { return std::abs(a) > std::abs(b) ? a : b; }
@@ -163,8 +173,9 @@ std::optional<double> frequency_of_crossing(const solver::Optimum& optimum) {
   constexpr double jump = 0.01;     // of the frequency: one peak moves less
   const solver::PeakOfParameter& best = optimum.best;
   for (const solver::PeakOfParameter& one : optimum.trace) {
-    const bool is_near = std::abs(one.parameter - best.parameter) <= near_by * best.parameter &&
-                         std::abs(one.amplitude - best.amplitude) <= near_by * best.amplitude;
+    const bool is_near =
+        std::abs(one.parameter - best.parameter) <= near_by * std::abs(best.parameter) &&
+        std::abs(one.amplitude - best.amplitude) <= near_by * best.amplitude;
     const bool is_other = std::abs(one.frequency - best.frequency) > jump * best.frequency;
     if (is_near && is_other) return one.frequency;
   }
@@ -196,10 +207,10 @@ CurveBudget budget_about_best(const std::vector<CurveBudget>& budgets,
     const auto add = [&](const char* goal, double effect) {
       result.rows.push_back({optimum_name, goal, source, effect, ErrorKind::solved, seconds});
     };
-    add(optimum_goal, shift(amplitudes_given, *known));
+    const TwoSides sides(amplitudes_given, *known);
+    add(optimum_goal, shift(sides));
     const double lowest = lowest_changed(amplitudes_given, *known);
-    add(peak_amplitude_goal,
-        jump ? further(crossing_changed(amplitudes_given, *known), lowest) : lowest);
+    add(peak_amplitude_goal, jump ? further(crossing_changed(sides), lowest) : lowest);
     const auto of_frequency = all_known(frequencies.at(source));
     add(peak_frequency_goal, of_frequency ? (*of_frequency)[middle] : 0.0);
     if (!result.energy_ratio) continue;

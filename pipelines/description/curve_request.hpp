@@ -13,9 +13,8 @@ namespace microslip::pipelines {
 /// What one curve is asked for: a preload, a factor on the rest loads that are given (modal scenes
 /// and bars), or a linear limit.
 struct CurveRequest {
-  std::string name;  ///< stem of the CSV
-  PreloadEntry
-      load;  ///< [N], or the factor; a limit, a gap, what the static loads of a scene press
+  std::string name;                        ///< stem of the CSV
+  PreloadEntry load;                       ///< of a number [N], or the factor
   std::string place = "response.preload";  ///< of messages
 };
 

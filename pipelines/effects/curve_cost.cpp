@@ -139,9 +139,8 @@ int n_chosen(const SceneDescription& scene) {
 Size size_of(const SceneDescription& scene, const CurveEffects& effects) {
   Size size;
   size.points = n_points(scene, effects.areas);
-  const double shapes = n_shapes(scene);
-  size.modes = effects.modes ? *effects.modes - (effects.residual ? 0.0 : shapes)
-                             : n_free_modes(scene) + (effects.residual ? shapes : 0.0);
+  size.modes =
+      effects.free_modes.value_or(n_free_modes(scene)) + (effects.residual ? n_shapes(scene) : 0.0);
   const HarmonicSettings& given = scene.settings.harmonics;
   int n_given = given.orders.empty() ? given.highest : static_cast<int>(given.orders.size());
   const bool chosen = effects.chosen_harmonics || (effects.several_harmonics && n_given == 1);

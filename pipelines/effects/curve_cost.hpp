@@ -19,8 +19,8 @@ struct CurveEffects {
   bool areas = true;     ///< contact acts on areas where the scene has any; else on points
   bool residual = true;  ///< the modes have those shapes for omitted ones that the scene has
   bool stability = true;
-  std::optional<double> modes{};  ///< with those shapes, where they are known
-  int linear_curves = 0;          ///< that cannot slip, open or close, as far as is known
+  std::optional<double> free_modes{};  ///< where they are known
+  int linear_curves = 0;               ///< that cannot slip, open or close, as far as is known
   /// Of the curves, those beside which other solutions are searched without having been asked for;
   /// empty: not known yet.
   std::optional<double> searched_share{};

@@ -332,7 +332,8 @@ void RunRecord::judge_optimum(double bar) {
   AccuracySummary& accuracy = *summary_.accuracy;
   accuracy.reached = std::max(accuracy.reached, bar);
   const std::string text = fmt::format(
-      "asked for {}: the best value has {}; ask for less of the peaks, whose models it is found "
+      "asked for {}: the best value has {}; a smaller tolerance refines the models that it is "
+      "found "
       "with",
       percent_text(accuracy.asked),
       std::isfinite(bar) ? "± " + percent_text(bar) : "an error that could not be told");

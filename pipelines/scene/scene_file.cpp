@@ -303,6 +303,10 @@ std::vector<std::string> read_goals(const SectionReader& s) {
     if (!is_known) s.fail("goals", expected, &entry);
     goals.push_back(*goal);
   }
+  // A best value is found among peaks: they are what is refined.
+  const bool alone =
+      std::ranges::all_of(goals, [](const auto& one) { return one == optimum_goal; });
+  if (alone) goals.emplace_back(peak_amplitude_goal);
   return goals;
 }
 

@@ -710,6 +710,14 @@ TEST(Effects, ForcesThatCancelAreWarnedOf) {
   EXPECT_FALSE(warns("[0, -1, 0]", "0"));
 }
 
+TEST(Effects, PointsWithoutAreaAreCounted) {
+  std::string idle(text);
+  idle.replace(idle.find("weight = 2"), 10, "weight = 0");
+  const auto told = scene_warnings(parse_scene(idle, "scene.toml", "/nowhere", {}));
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_NE(told[0].find("1 of 2 have weight 0"), std::string::npos) << told[0];
+}
+
 TEST(Effects, HarmonicsBesideIntegrationInTimeAreWarnedOf) {
   const auto warnings = [](const Overrides& overrides) {
     return scene_warnings(parse_scene(text, "scene.toml", "/nowhere", overrides));

@@ -840,6 +840,31 @@ TEST(BadModalScene, ListsMustFitTheNumberOfModes) {
   EXPECT_EQ(complaint(modal_text, {"modal.damping_ratio=50 %"}), "");
 }
 
+TEST(SceneFile, NumbersOfInlinePointsMayHaveUnits) {
+  const std::string with_units = replaced(
+      replaced(modal_text, "tangential_stiffness = 1e4", "tangential_stiffness = \"10 kN/m^3\""),
+      "friction_coefficient = 0.3", "friction_coefficient = \"30 %\"");
+  const contact::PointParameters point = std::get<ModalModel>(parse(with_units).model).points[0];
+  EXPECT_EQ(point.tangential_stiffness, 1e4);
+  EXPECT_EQ(point.friction_coefficient, 0.3);
+  expect_complaint(complaint(replaced(modal_text, "phi_u_1 = 0.8", "phi_u_1 = \"0.8 m\"")),
+                   {"modal.points: phi_u_1", "\"m\" is not understood"});
+}
+
+TEST(SceneFile, ATolerancesGoalsAreNamesOfBars) {
+  const auto goals = [](const std::string& list) {
+    return parse(modal_text, {"accuracy.goals=" + list}).accuracy.goals;
+  };
+  using Goals = std::vector<std::string>;
+  EXPECT_EQ(parse(modal_text).accuracy.goals, (Goals{"peak_amplitude", "peak_frequency"}));
+  EXPECT_EQ(goals("[\"dissipated_energy\"]"), Goals{"dissipated_energy"});
+  EXPECT_EQ(goals("[\"optimum\"]"), (Goals{"optimum", "peak_amplitude"}));
+  for (const char* wrong : {"[]", "[\"peak\"]", "[1]", "\"optimum\""}) {
+    expect_complaint(complaint(modal_text, {std::string("accuracy.goals=") + wrong}),
+                     {"accuracy.goals", "peak_amplitude"});
+  }
+}
+
 TEST(BadModalScene, InlinePointsTellTheirLine) {
   const std::string text(modal_text);
   const std::string second = "scene.toml:" + std::to_string(line_of(text, "weight = 2"));
