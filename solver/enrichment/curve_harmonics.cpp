@@ -139,6 +139,119 @@ void count(CurveHarmonics& sum, const PeakWork& work) {
   sum.contact_evaluations += work.contact_evaluations;
 }
 
+/// The curve at hand and what was done for it.
+class ChosenCurve {
+ public:
+  ChosenCurve(const Scene& scene, const ContinuationOptions& range, const CurveOfSet& first,
+              const CurveOfSet& trace)
+      : scene_(scene),
+        range_(range),
+        first_(first),
+        trace_(trace),
+        set_(least_harmonics(scene)),
+        curve_(first(set_)) {
+    add({.set = set_,
+         .iterations = curve_.iterations,
+         .contact_evaluations = curve_.contact_evaluations});
+  }
+
+  ResponseCurve run() {
+    bool has_along = false;  // orders along the curve were added to those chosen
+    for (int traces = 0; traces < most_traces; ++traces) {
+      const Choice choice = has_along ? Choice::with_others : choose();
+      if (choice == Choice::stopped) break;
+      check();
+      if (is_stopped(range_) || curve_.diagnosis == Diagnosis::interrupted) break;
+      if (choice == Choice::with_others && !is_settled_) {
+        has_along = false;
+        continue;
+      }
+      const std::vector<int> along = resonances_along(scene_, range_, set_, curve_);
+      if (along.empty()) break;
+      is_settled_ = false;  // until they are asked
+      if (traces + 1 == most_traces || !traced_with(set_.united(along))) break;
+      has_along = true;
+    }
+    return finished();
+  }
+
+ private:
+  enum class Choice { as_before, with_others, stopped };
+
+  Choice choose() {
+    chosen_ = choose_harmonics(scene_, range_, set_, curve_, first_);
+    add(chosen_);
+    if (chosen_.set == set_ || is_stopped(range_)) return Choice::as_before;
+    if (chosen_.traced && chosen_.traced->complete && !is_given_) {
+      set_ = chosen_.set;
+      curve_ = std::move(*chosen_.traced);
+      return Choice::with_others;
+    }
+    // With few harmonics already the curve tells most of what may resonate along it.
+    const HarmonicSet all = chosen_.set.united(resonances_along(scene_, range_, set_, curve_));
+    ResponseCurve richer = traced(all);
+    if (!richer.complete && is_stopped(range_)) {  // a whole curve is worth more than half a better
+      is_settled_ = false;
+      curve_.settled_peak = settled_of(chosen_, curve_);
+      return Choice::stopped;
+    }
+    set_ = all;
+    curve_ = std::move(richer);
+    return Choice::with_others;
+  }
+
+  void check() {
+    const CurveHarmonics checked = check_harmonics(scene_, range_, set_, chosen_.known, curve_);
+    const bool is_told = checked.highest.amplitude > 0.0;
+    curve_.settled_peak = is_told ? checked.highest : settled_of(chosen_, curve_);
+    add(checked);
+  }
+
+  /// @return  false: the one at hand is complete, and that is not.
+  bool traced_with(const HarmonicSet& all) {
+    ResponseCurve richer = traced(all);
+    if (!richer.complete && curve_.complete) return false;
+    set_ = all;
+    curve_ = std::move(richer);
+    return true;
+  }
+
+  ResponseCurve traced(const HarmonicSet& all) {
+    is_given_ = true;
+    ResponseCurve richer = trace_(all);
+    iterations_ += richer.iterations;
+    contact_evaluations_ += richer.contact_evaluations;
+    return richer;
+  }
+
+  void add(const CurveHarmonics& done) {
+    iterations_ += done.iterations;
+    contact_evaluations_ += done.contact_evaluations;
+    is_settled_ = done.settled;
+  }
+
+  ResponseCurve finished() {
+    tell_peak_beside(chosen_.is_peak ? chosen_.highest : SettledPeak{}, range_.harmonic_tolerance,
+                     curve_);
+    curve_.iterations = iterations_;
+    curve_.contact_evaluations = contact_evaluations_;
+    if (!is_settled_) note_unsettled(curve_);
+    return std::move(curve_);
+  }
+
+  const Scene& scene_;
+  const ContinuationOptions& range_;
+  const CurveOfSet& first_;
+  const CurveOfSet& trace_;
+  HarmonicSet set_;
+  ResponseCurve curve_;
+  CurveHarmonics chosen_;  ///< the last choice
+  bool is_given_ = false;  ///< the curve at hand was traced by `trace`
+  bool is_settled_ = true;
+  long iterations_ = 0;
+  long contact_evaluations_ = 0;
+};
+
 }  // namespace
 
 ContinuationOptions with_harmonics(const ContinuationOptions& range, const HarmonicSet& set) {
@@ -226,63 +339,7 @@ CurveHarmonics check_harmonics(const Scene& scene, const ContinuationOptions& ra
 
 ResponseCurve trace_with_chosen(const Scene& scene, const ContinuationOptions& range,
                                 const CurveOfSet& first, const CurveOfSet& trace) {
-  HarmonicSet set = least_harmonics(scene);
-  ResponseCurve curve = first(set);
-  CurveHarmonics work{
-      .set = set, .iterations = curve.iterations, .contact_evaluations = curve.contact_evaluations};
-  bool is_given = false;  // traced by `trace`
-  SettledPeak sought;     // the highest one that harmonics were chosen for
-  const auto add = [&](const CurveHarmonics& done) {
-    work.iterations += done.iterations;
-    work.contact_evaluations += done.contact_evaluations;
-    work.settled = done.settled;
-  };
-  const auto traced_with = [&](const HarmonicSet& all) {
-    is_given = true;
-    ResponseCurve richer = trace(all);
-    work.iterations += richer.iterations;
-    work.contact_evaluations += richer.contact_evaluations;
-    return richer;
-  };
-  for (int traces = 0; traces < most_traces; ++traces) {
-    CurveHarmonics chosen = choose_harmonics(scene, range, set, curve, first);
-    add(chosen);
-    const bool is_new = chosen.set != set && !is_stopped(range);
-    if (is_new && chosen.traced && chosen.traced->complete && !is_given) {
-      set = chosen.set;
-      curve = std::move(*chosen.traced);
-    } else if (is_new) {
-      ResponseCurve richer = traced_with(chosen.set);
-      if (!richer.complete &&
-          is_stopped(range)) {  // a whole curve is worth more than half of a better one
-        work.settled = false;
-        curve.settled_peak = settled_of(chosen, curve);
-        break;
-      }
-      set = chosen.set;
-      curve = std::move(richer);
-    }
-    const CurveHarmonics checked = check_harmonics(scene, range, set, chosen.known, curve);
-    curve.settled_peak =
-        checked.highest.amplitude > 0.0 ? checked.highest : settled_of(chosen, curve);
-    sought = chosen.is_peak ? chosen.highest : SettledPeak{};
-    add(checked);
-    if (is_stopped(range) || curve.diagnosis == Diagnosis::interrupted) break;
-    if (is_new && !checked.settled) continue;
-    const std::vector<int> along = resonances_along(scene, range, set, curve);
-    if (along.empty()) break;
-    work.settled = false;  // until they are asked
-    if (traces + 1 == most_traces) break;
-    ResponseCurve richer = traced_with(set.united(along));
-    if (!richer.complete && curve.complete) break;
-    set = set.united(along);
-    curve = std::move(richer);
-  }
-  tell_peak_beside(sought, range.harmonic_tolerance, curve);
-  curve.iterations = work.iterations;
-  curve.contact_evaluations = work.contact_evaluations;
-  if (!work.settled) note_unsettled(curve);
-  return curve;
+  return ChosenCurve(scene, range, first, trace).run();
 }
 
 }  // namespace microslip::solver
