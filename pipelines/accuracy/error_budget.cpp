@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <iterator>
+#include <tuple>
 #include <utility>
 #include <variant>
 
@@ -13,6 +14,7 @@
 #include "pipelines/response/highest_peak.hpp"
 #include "pipelines/response/peak_about.hpp"
 #include "pipelines/response/resonating_shapes.hpp"
+#include "pipelines/response/response_stage.hpp"
 #include "pipelines/response/sampled_curve.hpp"
 #include "pipelines/response/solver_scenes.hpp"
 #include "pipelines/system/deadline.hpp"
@@ -203,6 +205,84 @@ void add_certificate(CurveBudget& budget, const CurveResult& result,
            ErrorKind::estimated, 0.0);
 }
 
+/// Of the mode nearest to the peak: an eigenvalue errs by no more than its residual, and a shape by
+/// as much unless modes lie as close.
+void add_eigensolver(CurveBudget& budget, const ReducedModel& model, const RicherModels& richer,
+                     const std::string& curve, const solver::ResponsePoint& peak) {
+  const Eigen::Index n = std::min(richer.eigen_residual.size(), model.frequency.size());
+  if (n == 0) return;
+  Eigen::Index nearest = 0;
+  (model.frequency.head(n).array() - peak.frequency).abs().minCoeff(&nearest);
+  const double left = richer.eigen_residual[nearest];
+  GoalEffects effects = of_amplitude_alone(budget, left);
+  effects.frequency = 0.5 * left;
+  add_rows(budget, curve, "eigensolver", effects, ErrorKind::estimated, 0.0);
+}
+
+/// Of a free structure the contact has no part.
+bool concerns(const RicherModel& richer, LimitName limit) {
+  if (richer.source == "instants") return false;
+  return limit == LimitName::stuck || richer.source == "mesh" || richer.source == "basis";
+}
+
+/// The peak of a limit in another model, which may have left the range; where there is none but the
+/// range's end, the amplitude there.
+const solver::ResponsePoint* nearest_to(double place, solver::PointMark mark,
+                                        const solver::ResponseCurve& curve) {
+  const solver::ResponsePoint* nearest = nullptr;
+  for (const solver::ResponsePoint& point : curve.points) {
+    if (mark == solver::PointMark::peak && point.mark != mark) continue;
+    const double distance = std::abs(point.frequency - place);
+    if (nearest == nullptr || distance < std::abs(nearest->frequency - place)) nearest = &point;
+  }
+  return nearest;
+}
+
+SceneDescription with_wider_range(SceneDescription scene) {
+  constexpr double beyond = 0.1;
+  ResponseDescription& response = *scene.response;
+  const auto [low, high] = response.frequency_begin_hz < response.frequency_end_hz
+                               ? std::tie(response.frequency_begin_hz, response.frequency_end_hz)
+                               : std::tie(response.frequency_end_hz, response.frequency_begin_hz);
+  low *= 1.0 - beyond;
+  high *= 1.0 + beyond;
+  return scene;
+}
+
+/// Of a linear limit: its highest peak in every model.
+CurveBudget limit_budget(const ReducedModel& model, const SceneDescription& scene,
+                         const RicherModels& richer, const CurveResult& result, LimitName limit) {
+  CurveBudget budget;
+  const solver::ResponsePoint* peak = highest_peak(result.curve);
+  // What elements do outweighs all else: without it nothing is told.
+  const bool is_mesh_known =
+      std::ranges::find(richer.models, "mesh", &RicherModel::source) != richer.models.end();
+  if (peak == nullptr || !(peak->amplitude > 0.0) || !is_mesh_known) return budget;
+  const bool is_peak = peak->mark == solver::PointMark::peak;
+  const SceneDescription wider = is_peak ? with_wider_range(scene) : scene;
+  for (const RicherModel& other : richer.models) {
+    if (!concerns(other, limit)) continue;
+    const auto begin = std::chrono::steady_clock::now();
+    const solver::ResponseCurve curve = limit_curve(other.model, wider, limit);
+    const double factor =
+        is_peak ? frequency_factor(model, other.model, peak->frequency, other.embedding) : 1.0;
+    const auto* there = nearest_to(factor * peak->frequency, peak->mark, curve);
+    if (there == nullptr) {
+      budget.unknown.push_back(other.source);
+      continue;
+    }
+    const GoalEffects change = changes(budget, *peak, {there->amplitude, there->frequency});
+    add_rows(budget, result.name, other.source,
+             {other.share * change.amplitude, other.share * change.frequency}, ErrorKind::solved,
+             seconds_since(begin));
+  }
+  for (const std::string& source : richer.unknown) {
+    if (concerns({source, {}}, limit)) budget.unknown.push_back(source);
+  }
+  add_eigensolver(budget, model, richer, result.name, *peak);
+  return budget;
+}
+
 std::string energy_text(const CurveBudget& budget, const std::string& curve) {
   if (!budget.energy_ratio) return "friction dissipates nothing there";
   const double bar = bar_of(budget.rows, curve, energy);
@@ -285,10 +365,13 @@ bool leaves_modes_out(const ReducedModel& model, const SceneDescription& scene,
 
 CurveBudget error_budget(const ReducedModel& model, const SceneDescription& scene,
                          const RicherModels& richer, const CurveResult& result) {
+  if (const auto* limit = std::get_if<LimitName>(&result.load)) {
+    return limit_budget(model, scene, richer, result, *limit);
+  }
   CurveBudget budget;
   const auto* load = std::get_if<double>(&result.load);
   const solver::ResponsePoint* peak = highest_peak(result.curve);
-  if (load == nullptr || peak == nullptr || result.integrated || !(peak->amplitude > 0.0)) {
+  if (peak == nullptr || result.integrated || !(peak->amplitude > 0.0)) {
     return budget;
   }
   if (!result.curve.complete) {  // its highest peak need not be there
@@ -309,6 +392,7 @@ CurveBudget error_budget(const ReducedModel& model, const SceneDescription& scen
     if (other.source == "instants") add_marks(budget, model, other, result, *load);
   }
   if (leaves_modes_out(model, scene, result)) budget.unknown.emplace_back("modes");
+  add_eigensolver(budget, model, richer, result.name, *peak);
   add_certificate(budget, result, *peak);
   return budget;
 }

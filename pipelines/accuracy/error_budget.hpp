@@ -29,7 +29,8 @@ struct CurveBudget {
   [[nodiscard]] bool has_bar() const;
 };
 
-/// @param result  a curve of the model, solved by harmonic balance; a linear limit has no rows.
+/// @param result  a curve of the model, solved by harmonic balance, or a linear limit: modes that
+///                are given leave that without rows.
 [[nodiscard]] CurveBudget error_budget(const ReducedModel& model, const SceneDescription& scene,
                                        const RicherModels& richer, const CurveResult& result);
 

@@ -124,7 +124,12 @@ RicherModels richer_models(const ReducedModel& model, const SceneDescription& sc
   if (asked("instants") && contact::is_sampled(model.patches, model.effects)) {
     result.models.push_back(with_located_events(model));
   }
-  if (structure == nullptr || model.patches.empty()) return result;
+  if (structure == nullptr) return result;
+  if (asked("eigensolver")) result.eigen_residual = structure->modes.basis.residual;
+  if (model.patches.empty()) {
+    if (asked("mesh")) keep("mesh", coarser_mesh(model, scene, *structure, result.note));
+    return result;
+  }
   if (asked("cells")) result.models.push_back(with_more_cells(model, scene, *structure));
   if (asked("fit") && is_fitted(model)) {
     result.models.push_back(with_patches("fit", model, scene, *structure,

@@ -32,6 +32,9 @@ struct RicherModels {
   std::vector<std::string> unknown;  ///< sources that cannot be told for this scene
   std::string note;                  ///< why, where something failed; for the log
   std::vector<NoBound> no_bound{};   ///< effects that cannot be put back (models_left_out.hpp)
+  /// What the eigensolver has left of its equations, mode by mode (fem::ModalBasis::residual);
+  /// empty: modes are given.
+  Eigen::VectorXd eigen_residual{};
 };
 
 /// Instants (events located in place of sampled forces), cells (four times as many), fit (the

@@ -203,11 +203,6 @@ std::vector<CurveResult> trace_again(const ReducedModel& model, const SceneDescr
 
 namespace {
 
-/// Else it has no error budget.
-bool is_balanced(const CurveResult& curve) {
-  return !curve.integrated && std::holds_alternative<double>(curve.load);
-}
-
 /// @param needed  else there are none, and nothing is said.
 RicherModels models_to_compare(const ReducedModel& model, const SceneDescription& scene,
                                const SolvedStructure* structure, bool needed) {
@@ -230,13 +225,15 @@ std::vector<CurveBudget> budgets_of(const ReducedModel& model, const SceneDescri
                                     const SolvedStructure* structure, int jobs,
                                     std::vector<CurveResult>& curves, Progress& progress) {
   if (!scene.accuracy.error_budget) return {};
-  if (model.patches.empty() && effects_left_out(model, scene).empty()) return {};
+  const bool is_given = structure == nullptr && model.patches.empty();
+  if (is_given && effects_left_out(model, scene).empty()) return {};
   const KeptResults kept(model, scene);
   std::vector<std::optional<CurveBudget>> known(curves.size());
   for (std::size_t i = 0; i < curves.size(); ++i) known[i] = kept.budget(curves[i]);
   const bool any_unknown =
       !std::ranges::all_of(known, [](const auto& budget) { return budget.has_value(); });
-  const bool any_balanced = std::ranges::any_of(curves, is_balanced);
+  const bool any_balanced =  // else there is no budget
+      !std::ranges::all_of(curves, &CurveResult::integrated);
   const RicherModels richer =
       models_to_compare(model, scene, structure, any_unknown && any_balanced);
   if (!richer.note.empty()) progress.info(richer.note);
