@@ -15,6 +15,8 @@
 namespace microslip::pipelines {
 namespace {
 
+constexpr double least_refinement = 1.1;  // nothing is told by two meshes that are as good as one
+
 /// Modes of two meshes have the same shapes but for their signs:
 /// those that the contact and the output feel.
 Eigen::MatrixXd same_signs(const ReducedModel& from, const ReducedModel& to) {
@@ -43,6 +45,7 @@ double extrapolated_ratio(const SolvedStructure& structure, const SceneDescripti
   for (const std::optional<double>& one : structure.coarser->ratios.free) {
     ratio = std::min(ratio, one.value_or(ratio));
   }
+  ratio = ratio_over(refinement_between(structure.mesh, structure.coarser->twice.mesh), ratio);
   const bool all = structure.modes.residuals.empty() && !structure.modes.static_face;
   if (!all) return ratio;
   return (std::holds_alternative<BladeModel>(scene.model) ? 2.0 : std::numbers::sqrt2) * ratio;
@@ -73,9 +76,14 @@ std::optional<RicherModel> coarser_mesh(const ReducedModel& model, const SceneDe
     const SolvedStructure twice =
         on_larger_elements(scene, 2.0, model.frequency.size() - model.n_attachment);
     const SolvedStructure four_times = on_larger_elements(scene, 4.0, scene.settings.basis.n_modes);
-    return coarser_model(model, scene, twice,
-                         observed_ratio(model.frequency[0], twice.modes.basis.frequency[0],
-                                        four_times.modes.basis.frequency[0]));
+    const double ratio = observed_ratio(model.frequency[0], twice.modes.basis.frequency[0],
+                                        four_times.modes.basis.frequency[0]);
+    const double refinement = refinement_between(structure.mesh, twice.mesh);
+    if (refinement < least_refinement) {
+      note = "the error of the mesh is not known: elements of twice the size give the same mesh";
+      return std::nullopt;
+    }
+    return coarser_model(model, scene, twice, ratio_over(refinement, ratio));
   } catch (const InterruptedError&) {
     throw;
   } catch (const std::exception& error) {  // an estimate that fails does not cost the run

@@ -154,12 +154,30 @@ Ratios of_columns(const fem::ModalBasis& basis, const ExtrapolationRatios& known
   return ratios;
 }
 
+/// Of errors, for meshes whose sizes differ by less than twice.
+Ratios over(Ratios ratios, double refinement) {
+  for (std::optional<double>& one : ratios) {
+    if (one) one = ratio_over(refinement, *one);
+  }
+  return ratios;
+}
+
+/// One mesh in the places of another whose elements are larger.
+struct Step {
+  Interpolation to;  ///< nodes of the finer one
+  double refinement = 2.0;
+};
+
+Step step_between(const mesh::Mesh& coarse, const mesh::Mesh& fine) {
+  return {mesh::interpolation(coarse, fine.nodes()), refinement_between(fine, coarse)};
+}
+
 /// The bases of three meshes: those of h and 2h are extrapolated, the same columns of both.
 ExtrapolationRatios extrapolate(fem::ModalBasis& fine, const Interpolation& to_fine,
-                                fem::ModalBasis& coarse, const Interpolation& to_coarse,
+                                fem::ModalBasis& coarse, const Step& to_coarse,
                                 const fem::ModalBasis& coarsest) {
   const fem::ModalBasis coarse_at_fine = at_nodes(to_fine, coarse);
-  const fem::ModalBasis coarsest_at_coarse = at_nodes(to_coarse, coarsest);
+  const fem::ModalBasis coarsest_at_coarse = at_nodes(to_coarse.to, coarsest);
   const Matches in_coarse = matches(fine, coarse_at_fine);
   const Matches in_coarsest = matches(coarse, coarsest_at_coarse);
   const Ratios ratios = ratios_of(fine, in_coarse, coarse, in_coarsest, coarsest);
@@ -168,8 +186,11 @@ ExtrapolationRatios extrapolate(fem::ModalBasis& fine, const Interpolation& to_f
     const Eigen::Index j = in_coarse[i].column;
     if (j >= 0) ratios_of_coarse[static_cast<std::size_t>(j)] = ratios[i];
   }
+  // The modes themselves as if sizes were halved: too little is left to the error, which those of
+  // 2h tell, whose elements may hardly be smaller than those of 4h.
   extrapolate(fine, coarse_at_fine, in_coarse, ratios);
-  extrapolate(coarse, coarsest_at_coarse, in_coarsest, ratios_of_coarse);
+  extrapolate(coarse, coarsest_at_coarse, in_coarsest,
+              over(std::move(ratios_of_coarse), to_coarse.refinement));
   return by_kind(fine, ratios);
 }
 
@@ -177,7 +198,7 @@ ExtrapolationRatios extrapolate(fem::ModalBasis& fine, const Interpolation& to_f
 ExtrapolationRatios extrapolate(SolvedStructure& fine, SolvedStructure& coarse,
                                 const SolvedStructure& coarsest) {
   const Interpolation to_fine = mesh::interpolation(coarse.mesh, fine.mesh.nodes());
-  const Interpolation to_coarse = mesh::interpolation(coarsest.mesh, coarse.mesh.nodes());
+  const Step to_coarse = step_between(coarsest.mesh, coarse.mesh);
   std::optional<fem::RicherBasis>& richer = fine.modes.richer;
   if (richer && coarse.modes.richer && coarsest.modes.richer) {
     extrapolate(richer->basis, to_fine, coarse.modes.richer->basis, to_coarse,
@@ -187,6 +208,15 @@ ExtrapolationRatios extrapolate(SolvedStructure& fine, SolvedStructure& coarse,
   }
   return extrapolate(fine.modes.basis, to_fine, coarse.modes.basis, to_coarse,
                      coarsest.modes.basis);
+}
+
+/// Elements larger than the body is thick do not grow as asked. Empty: they do.
+std::string hardly_differ(const mesh::Mesh& fine, const mesh::Mesh& coarse) {
+  constexpr double least = 1.5;
+  if (refinement_between(fine, coarse) >= least) return {};
+  return fmt::format(
+      ": with {} and {} nodes these meshes hardly differ, and modes are not extrapolated",
+      fine.n_nodes(), coarse.n_nodes());
 }
 
 /// What the coarser meshes take, where it is more than half of the time there is: the curves need
@@ -222,6 +252,15 @@ double observed_ratio(double fine, double coarse, double coarsest) {
   return is_smooth ? ratio : ratio_of_edges;
 }
 
+double refinement_between(const mesh::Mesh& fine, const mesh::Mesh& coarse) {
+  const double nodes = static_cast<double>(fine.n_nodes()) / static_cast<double>(coarse.n_nodes());
+  return std::clamp(std::sqrt(nodes), 1.0, 2.0);
+}
+
+double ratio_over(double refinement, double ratio) {
+  return std::pow(ratio, std::log2(refinement));
+}
+
 std::string extrapolate_modes(SolvedStructure& structure, const SceneDescription& scene,
                               LargerElements& larger) {
   const fem::ModalBasis& basis = structure.modes.basis;
@@ -236,6 +275,9 @@ std::string extrapolate_modes(SolvedStructure& structure, const SceneDescription
     const ThreeFrequencies first{basis.frequency[0], coarser->twice.modes.basis.frequency[0],
                                  four_times.modes.basis.frequency[0]};
     const std::string text = text_of(*element_size_of(scene), first);
+    if (std::string same = hardly_differ(structure.mesh, coarser->twice.mesh); !same.empty()) {
+      return text + same;
+    }
     if (!converges(first)) return text + ": they are too far apart to be extrapolated";
     SolvedStructure limit = structure;
     coarser->ratios = extrapolate(limit, coarser->twice, four_times);

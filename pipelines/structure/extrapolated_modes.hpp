@@ -32,7 +32,7 @@ struct ExtrapolationRatios {
 };
 
 struct CoarserMeshes {
-  SolvedStructure twice;         ///< of 2h, extrapolated likewise from 4h
+  SolvedStructure twice;         ///< of 2h, extrapolated from 4h by r^p of refinement_between()
   ExtrapolationRatios ratios{};  ///< the first of `free` is there
   std::string text{};            ///< what was done, for the log
 };
@@ -45,6 +45,15 @@ struct CoarserMeshes {
 /// quadratic elements). Else it is that of re-entrant edges, h^1.09: meshes show the rate of the
 /// coarsest then, or an accident, which is not that of what is left on the finest.
 [[nodiscard]] double observed_ratio(double fine, double coarse, double coarsest);
+
+/// How many times smaller elements are than those of a mesh that was to have twice their size: 2,
+/// or less where these are larger than the body is thick and do not grow as asked. By the number of
+/// nodes, which a thin body has as the square: of the default blade 1.24 from 12 to 24 mm, where
+/// errors fall by a factor of 1.23, and 1.43 from 10 to 20 mm, where they fall by 1.7.
+[[nodiscard]] double refinement_between(const mesh::Mesh& fine, const mesh::Mesh& coarse);
+
+/// r^p of errors. @param ratio  2^p.
+[[nodiscard]] double ratio_over(double refinement, double ratio);
 
 /// Extrapolates the modes of a structure and keeps what they are extrapolated from.
 /// Leaves them where the scene does not ask for it, the coarser meshes cannot be solved or take

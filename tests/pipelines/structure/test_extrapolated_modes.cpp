@@ -145,5 +145,22 @@ TEST(ExtrapolatedModes, RatesAreThoseOfSharpEdgesButWhereFieldsAreSmooth) {
   EXPECT_DOUBLE_EQ(observed_ratio(1.0, 2.0, 100.0), of_edges) << "an accident";
 }
 
+// Elements of 24 mm are thicker than this blade, and its mesh has as many nodes as that of 32 mm:
+// the first frequency on 12 mm, 304.5 Hz, was taken to 302.2, where 293.4 is right.
+TEST(ExtrapolatedModes, AreLeftWhereElementsAreTooLargeToGrow) {
+  const SolvedStructure structure =
+      blade({"accuracy.tolerance=0.02", "model.element_size=\"12 mm\""});
+  EXPECT_FALSE(structure.coarser);
+  EXPECT_NEAR(in_hz(structure, 0), 304.5, 0.1);
+}
+
+TEST(ExtrapolatedModes, RefinementIsTwoAtMostAndOneOfTheSameMesh) {
+  const SolvedStructure& fine = raw_blade();
+  EXPECT_EQ(refinement_between(fine.mesh, fine.mesh), 1.0);
+  EXPECT_DOUBLE_EQ(ratio_over(2.0, 2.127), 2.127);
+  EXPECT_NEAR(ratio_over(std::sqrt(2.0), 4.0), 2.0, 1e-12);
+  EXPECT_EQ(ratio_over(1.0, 4.0), 1.0);
+}
+
 }  // namespace
 }  // namespace microslip::pipelines::test_extrapolated_modes
