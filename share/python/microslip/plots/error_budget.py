@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-SOURCES = ("harmonics", "mesh", "second_direction", "cells", "basis", "fit", "instants", "newton")
-COLOURS = ("#c44e52", "#4c72b0", "#8172b3", "#55a868", "#ccb974", "#64b5cd", "0.6", "0.35")
+SOURCES = ("harmonics", "mesh", "second_direction", "cells", "basis", "fit", "instants", "newton", "eigensolver")
+COLOURS = ("#c44e52", "#4c72b0", "#8172b3", "#55a868", "#ccb974", "#64b5cd", "0.6", "0.35", "0.8")
 SMALLEST = 1e-4  # %, where the axis begins
 Sizes = Mapping[str, float]  # [%] by source
 
