@@ -45,7 +45,8 @@ double extrapolated_ratio(const SolvedStructure& structure, const SceneDescripti
   for (const std::optional<double>& one : structure.coarser->ratios.free) {
     ratio = std::min(ratio, one.value_or(ratio));
   }
-  ratio = ratio_over(refinement_between(structure.mesh, structure.coarser->twice.mesh), ratio);
+  ratio =
+      ratio_over(refinement_between(structure.mesh, structure.coarser->twice.mesh, scene), ratio);
   const bool all = structure.modes.residuals.empty() && !structure.modes.static_face;
   if (!all) return ratio;
   return (std::holds_alternative<BladeModel>(scene.model) ? 2.0 : std::numbers::sqrt2) * ratio;
@@ -78,7 +79,7 @@ std::optional<RicherModel> coarser_mesh(const ReducedModel& model, const SceneDe
     const SolvedStructure four_times = on_larger_elements(scene, 4.0, scene.settings.basis.n_modes);
     const double ratio = observed_ratio(model.frequency[0], twice.modes.basis.frequency[0],
                                         four_times.modes.basis.frequency[0]);
-    const double refinement = refinement_between(structure.mesh, twice.mesh);
+    const double refinement = refinement_between(structure.mesh, twice.mesh, scene);
     if (refinement < least_refinement) {
       note = "the error of the mesh is not known: elements of twice the size give the same mesh";
       return std::nullopt;

@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
@@ -168,8 +169,8 @@ struct Step {
   double refinement = 2.0;
 };
 
-Step step_between(const mesh::Mesh& coarse, const mesh::Mesh& fine) {
-  return {mesh::interpolation(coarse, fine.nodes()), refinement_between(fine, coarse)};
+Step step_between(const mesh::Mesh& coarse, const mesh::Mesh& fine, const SceneDescription& scene) {
+  return {mesh::interpolation(coarse, fine.nodes()), refinement_between(fine, coarse, scene)};
 }
 
 /// The bases of three meshes: those of h and 2h are extrapolated, the same columns of both.
@@ -196,9 +197,9 @@ ExtrapolationRatios extrapolate(fem::ModalBasis& fine, const Interpolation& to_f
 
 /// Modes, and those with more attachment shapes. @return of the modes.
 ExtrapolationRatios extrapolate(SolvedStructure& fine, SolvedStructure& coarse,
-                                const SolvedStructure& coarsest) {
+                                const SolvedStructure& coarsest, const SceneDescription& scene) {
   const Interpolation to_fine = mesh::interpolation(coarse.mesh, fine.mesh.nodes());
-  const Step to_coarse = step_between(coarsest.mesh, coarse.mesh);
+  const Step to_coarse = step_between(coarsest.mesh, coarse.mesh, scene);
   std::optional<fem::RicherBasis>& richer = fine.modes.richer;
   if (richer && coarse.modes.richer && coarsest.modes.richer) {
     extrapolate(richer->basis, to_fine, coarse.modes.richer->basis, to_coarse,
@@ -211,9 +212,10 @@ ExtrapolationRatios extrapolate(SolvedStructure& fine, SolvedStructure& coarse,
 }
 
 /// Elements larger than the body is thick do not grow as asked. Empty: they do.
-std::string hardly_differ(const mesh::Mesh& fine, const mesh::Mesh& coarse) {
+std::string hardly_differ(const mesh::Mesh& fine, const mesh::Mesh& coarse,
+                          const SceneDescription& scene) {
   constexpr double least = 1.5;
-  if (refinement_between(fine, coarse) >= least) return {};
+  if (refinement_between(fine, coarse, scene) >= least) return {};
   return fmt::format(
       ": with {} and {} nodes these meshes hardly differ, and modes are not extrapolated",
       fine.n_nodes(), coarse.n_nodes());
@@ -252,7 +254,10 @@ double observed_ratio(double fine, double coarse, double coarsest) {
   return is_smooth ? ratio : ratio_of_edges;
 }
 
-double refinement_between(const mesh::Mesh& fine, const mesh::Mesh& coarse) {
+double refinement_between(const mesh::Mesh& fine, const mesh::Mesh& coarse,
+                          const SceneDescription& scene) {
+  const auto* blade = std::get_if<BladeModel>(&scene.model);
+  if (blade != nullptr && blade->sizes.edge_size) return 2.0;
   const double nodes = static_cast<double>(fine.n_nodes()) / static_cast<double>(coarse.n_nodes());
   return std::clamp(std::sqrt(nodes), 1.0, 2.0);
 }
@@ -275,12 +280,13 @@ std::string extrapolate_modes(SolvedStructure& structure, const SceneDescription
     const ThreeFrequencies first{basis.frequency[0], coarser->twice.modes.basis.frequency[0],
                                  four_times.modes.basis.frequency[0]};
     const std::string text = text_of(*element_size_of(scene), first);
-    if (std::string same = hardly_differ(structure.mesh, coarser->twice.mesh); !same.empty()) {
+    if (std::string same = hardly_differ(structure.mesh, coarser->twice.mesh, scene);
+        !same.empty()) {
       return text + same;
     }
     if (!converges(first)) return text + ": they are too far apart to be extrapolated";
     SolvedStructure limit = structure;
-    coarser->ratios = extrapolate(limit, coarser->twice, four_times);
+    coarser->ratios = extrapolate(limit, coarser->twice, four_times, scene);
     if (!coarser->ratios.free.front()) {
       return text + ": modes are not extrapolated, the first has another shape on each mesh";
     }

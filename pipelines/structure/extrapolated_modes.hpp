@@ -49,8 +49,10 @@ struct CoarserMeshes {
 /// How many times smaller elements are than those of a mesh that was to have twice their size: 2,
 /// or less where these are larger than the body is thick and do not grow as asked. By the number of
 /// nodes, which a thin body has as the square: of the default blade 1.24 from 12 to 24 mm, where
-/// errors fall by a factor of 1.23, and 1.43 from 10 to 20 mm, where they fall by 1.7.
-[[nodiscard]] double refinement_between(const mesh::Mesh& fine, const mesh::Mesh& coarse);
+/// errors fall by a factor of 1.23, and 1.43 from 10 to 20 mm, where they fall by 1.7. Where sharp
+/// edges have a size of their own the error is theirs, and that size was doubled.
+[[nodiscard]] double refinement_between(const mesh::Mesh& fine, const mesh::Mesh& coarse,
+                                        const SceneDescription& scene);
 
 /// r^p of errors. @param ratio  2^p.
 [[nodiscard]] double ratio_over(double refinement, double ratio);

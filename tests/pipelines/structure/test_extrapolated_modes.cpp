@@ -6,6 +6,7 @@
 #include <memory>
 #include <numbers>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -155,8 +156,11 @@ TEST(ExtrapolatedModes, AreLeftWhereElementsAreTooLargeToGrow) {
 }
 
 TEST(ExtrapolatedModes, RefinementIsTwoAtMostAndOneOfTheSameMesh) {
-  const SolvedStructure& fine = raw_blade();
-  EXPECT_EQ(refinement_between(fine.mesh, fine.mesh), 1.0);
+  const mesh::Mesh& mesh = raw_blade().mesh;
+  SceneDescription scene = read_scene(MICROSLIP_SCENES "/blade_to_ground.toml", {});
+  EXPECT_EQ(refinement_between(mesh, mesh, scene), 1.0);
+  std::get<BladeModel>(scene.model).sizes.edge_size = 1e-3;
+  EXPECT_EQ(refinement_between(mesh, mesh, scene), 2.0) << "at sharp edges";
   EXPECT_DOUBLE_EQ(ratio_over(2.0, 2.127), 2.127);
   EXPECT_NEAR(ratio_over(std::sqrt(2.0), 4.0), 2.0, 1e-12);
   EXPECT_EQ(ratio_over(1.0, 4.0), 1.0);
