@@ -304,9 +304,6 @@ int mesh(Arguments& arguments) {
         blade != nullptr ? "; or in .step: the geometry itself" : ""));
   }
   const std::filesystem::path file = std::filesystem::absolute(arguments.output);
-  if (!std::filesystem::is_directory(file.parent_path())) {
-    throw ExhaustedError(arguments.output + ": the folder to write in does not exist");
-  }
   require_writable(file.parent_path());  // before the mesher works for nothing
   const InterruptWatch watch;
   if (as_step) return write_geometry(*blade, file, arguments.quiet);

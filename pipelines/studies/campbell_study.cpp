@@ -22,8 +22,7 @@ int campbell_study(const SceneDescription& scene, const CampbellRequest& request
                    const RunOptions& options) {
   require_rotation(scene);
   const std::filesystem::path folder = options.output / "campbell";
-  make_folder(folder);
-  require_writable(folder);
+  const FolderToFill to_fill(folder);
   const auto say = [&](const std::string& sentence) {
     if (options.verbosity != Verbosity::quiet) std::cout << sentence << std::flush;
   };

@@ -17,8 +17,7 @@ namespace microslip::pipelines {
 int converge_study(const SceneDescription& scene, const RunOptions& options) {
   require_response(scene);
   const std::filesystem::path folder = options.output / "converge";
-  make_folder(folder);
-  require_writable(folder);
+  const FolderToFill to_fill(folder);
   const auto say = [&](const std::string& sentence) {
     if (options.verbosity != Verbosity::quiet) std::cout << sentence << std::endl;
   };

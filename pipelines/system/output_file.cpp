@@ -108,7 +108,12 @@ void require_file_name(const std::filesystem::path& file, const std::string& opt
     throw SceneError(
         fmt::format("{} {}: is a folder; expected the name of a file", option, file.string()));
   }
-  require_folder_name(std::filesystem::absolute(file, code).parent_path(), option);
+  const std::filesystem::path folder = std::filesystem::absolute(file, code).parent_path();
+  require_folder_name(folder, option);
+  if (!std::filesystem::exists(folder, code) && !code) {
+    throw SceneError(
+        fmt::format("{} {}: the folder to write in does not exist", option, file.string()));
+  }
 }
 
 void write_whole(const std::filesystem::path& file, std::string_view content) {
@@ -138,6 +143,22 @@ void make_folder(const std::filesystem::path& folder) {
 
 void require_writable(const std::filesystem::path& folder) {
   const TemporaryFile probe(folder / "probe");
+}
+
+FolderToFill::FolderToFill(const std::filesystem::path& folder) {
+  std::error_code code;
+  std::filesystem::path missing = std::filesystem::absolute(folder, code).lexically_normal();
+  while (!missing.empty() && !std::filesystem::exists(missing, code) && !code) {
+    made_.push_back(missing);
+    missing = missing.parent_path();
+  }
+  make_folder(folder);
+  require_writable(folder);
+}
+
+FolderToFill::~FolderToFill() {
+  std::error_code code;  // one that is not empty stays
+  for (const std::filesystem::path& folder : made_) std::filesystem::remove(folder, code);
 }
 
 std::string format_number(double value) {

@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace microslip::pipelines {
 
@@ -18,7 +19,7 @@ namespace microslip::pipelines {
 ///         What cannot be looked at is told when it is written.
 void require_folder_name(const std::filesystem::path& folder, const std::string& option);
 
-/// What is asked for as a file can be one: no folder stands there, and no file on the way to it.
+/// What is asked for as a file can be one: its folder is there, and no folder stands in its place.
 /// @throws SceneError  otherwise.
 void require_file_name(const std::filesystem::path& file, const std::string& option);
 
@@ -35,6 +36,22 @@ void write_whole(const std::filesystem::path& file, std::span<const std::byte> c
 /// Creates a folder and its parents where they are missing.
 /// @throws ExhaustedError  it cannot be created or is not a folder.
 void make_folder(const std::filesystem::path& folder);
+
+/// A folder, made and looked at for whether it can be written in before long work. At its end it is
+/// removed where nothing was written, with those on the way to it that were made for it.
+class FolderToFill {
+ public:
+  /// @throws ExhaustedError  as make_folder() and require_writable().
+  explicit FolderToFill(const std::filesystem::path& folder);
+  FolderToFill(const FolderToFill&) = delete;
+  FolderToFill& operator=(const FolderToFill&) = delete;
+  FolderToFill(FolderToFill&&) = delete;
+  FolderToFill& operator=(FolderToFill&&) = delete;
+  ~FolderToFill();
+
+ private:
+  std::vector<std::filesystem::path> made_;  ///< from the folder up
+};
 
 /// @throws ExhaustedError  no file can be created in `folder` (which must exist): asked before the
 ///         long stages, not after them.

@@ -461,12 +461,6 @@ TEST_F(Program, ARunOutlivesTheReaderOfItsProgress) {
   EXPECT_EQ(Json::parse(content_of(path("out/summary.json")))["exit_code"], 0);
 }
 
-TEST_F(Program, AnOutputThatCannotBeMadeIsExitFour) {
-  write(path("scene.toml"), scene_text);
-  write(path("t.csv"), table_header + "1,1,0.5,1,3,0,0,0.2,0\n");
-  expect("cycle t.csv -o no/such/folder/t.json", 4, {"no/such/folder"});
-}
-
 /// Not for want of disk: the command line names the wrong thing.
 TEST_F(Program, AnOutputOfAnotherKindIsBadInput) {
   write(path("scene.toml"), scene_text);
@@ -479,6 +473,8 @@ TEST_F(Program, AnOutputOfAnotherKindIsBadInput) {
   }
   std::filesystem::create_directory(path("folder"));
   expect("cycle t.csv -o folder", 1, {"-o folder", "is a folder"});
+  expect("cycle t.csv -o no/such/t.json", 1, {"-o no/such/t.json", "folder", "does not exist"});
+  expect("init modal -o no/such/t.toml", 1, {"-o no/such/t.toml", "folder", "does not exist"});
   expect("cycle t.csv --plot scene.toml", 1, {"--plot scene.toml", "is a file"});
   EXPECT_EQ(content_of(path("scene.toml")), scene_text);
 }
