@@ -16,6 +16,7 @@
 #include "solver/branch/start_point.hpp"
 #include "solver/curve/curve_tracer.hpp"
 #include "solver/curve/solved_point.hpp"
+#include "solver/enrichment/curve_harmonics.hpp"
 
 namespace microslip::solver {
 namespace {
@@ -94,6 +95,38 @@ ContinuationOptions range_about(const Scene& scene, ContinuationOptions options)
   return options;
 }
 
+/// From a resonance beside the range, free or stuck, through the end next to it: a branch that leans
+/// into the range rises there. Begins where motions are small.
+std::vector<ContinuationOptions> ranges_from_beside(const Scene& scene,
+                                                    const ContinuationOptions& options,
+                                                    const HarmonicSet& set) {
+  constexpr double beside = 0.05;
+  constexpr double farthest = 0.25;  // of the frequency
+  const auto [low, high] = std::minmax(options.frequency_begin, options.frequency_end);
+  double below = low;
+  double above = high;
+  const Eigen::Index n = scene.n_modes();
+  for (const Eigen::MatrixXd& stiffness :
+       {Eigen::MatrixXd(Eigen::MatrixXd::Zero(n, n)), scene.contact->stuck_stiffness()}) {
+    for (const double one : resonances(scene, stiffness)) {
+      if (one > (1.0 - farthest) * low) below = std::min(below, one);
+      if (one < (1.0 + farthest) * high) above = std::max(above, one);
+    }
+  }
+  ContinuationOptions range = with_harmonics(options, set);
+  range.search_starts = 0;
+  range.judge_stability = range.require_proof = false;  // of what is no row
+  std::vector<ContinuationOptions> ranges;
+  const auto add = [&](double begin, double end) {
+    range.frequency_begin = begin;
+    range.frequency_end = end;
+    ranges.push_back(range);
+  };
+  if (below < low) add((1.0 - beside) * below, high);
+  if (above > high) add((1.0 + beside) * above, low);
+  return ranges;
+}
+
 class Search {
  public:
   Search(const Scene& scene, const ContinuationOptions& options, ResponseCurve& curve)
@@ -117,6 +150,9 @@ class Search {
     }
     balance_ = std::make_unique<HarmonicBalance>(scene_, std::move(set));
     std::vector<Eigen::VectorXd> known = known_at(frequency);
+    if (frequency == options_.frequency_begin || frequency == options_.frequency_end) {
+      keep_entries(frequency, known);
+    }
     if (is_point()) {
       for (const Eigen::VectorXd& own : std::vector(known)) keep_crossings(own, frequency, known);
     }
@@ -133,6 +169,25 @@ class Search {
       known = known_at(frequency);  // the branch may come back to this frequency
       if (!near(x, known)) known.push_back(x);
       if (is_point()) keep_crossings(x, frequency, known);
+    }
+  }
+
+  /// Branches that come in at an end of the range from resonances beside it.
+  void keep_entries(double frequency, std::vector<Eigen::VectorXd>& known) {
+    for (const ContinuationOptions& range : ranges_from_beside(scene_, options_, balance_->set())) {
+      if (is_stopped()) return;
+      const PointObserver goes_on = [&](const ResponsePoint& /*point*/) { return !is_stopped(); };
+      const ResponseCurve beside = CurveTracer(scene_, range, goes_on).run();
+      count(static_cast<int>(beside.iterations), static_cast<int>(beside.contact_evaluations));
+      for (const ResponsePoint& point : points_at_frequency(scene_, beside, frequency, range)) {
+        if (curve_.detached.size() >= most_branches) return;
+        NewtonResult solution = solved_near(balance_->unknowns(point.q), frequency);
+        if (!solution.converged || near(solution.point.x, known)) continue;
+        const Eigen::VectorXd x = solution.point.x;
+        keep_branch(std::move(solution));
+        known = known_at(frequency);
+        if (!near(x, known)) known.push_back(x);
+      }
     }
   }
 

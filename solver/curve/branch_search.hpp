@@ -11,6 +11,9 @@
 ///
 ///   δ = −J⁻¹R / (1 + gᵀ J⁻¹R)
 ///
+/// At the ends of the range the curves that begin at resonances beside it, up to a quarter of the
+/// frequency away, come in as well: a branch that leans into the range rises there.
+///
 /// What is found is followed both ways to the ends of its branch; at a single frequency it is a
 /// point, and the branches of the known solutions are followed about the resonances near by: where
 /// they fold and come back is another solution. Nothing found proves nothing.

@@ -113,6 +113,18 @@ TEST(BranchSearch, FindsABranchThatCoversAnEndOfTheRangeOnly) {
   }
 }
 
+// From 20 Hz, beside the range, the branch of the stop leans into it: one start alone meets it in
+// no frequency of the search.
+TEST(BranchSearch, FollowsTheCurveOfAResonanceBesideTheRangeIntoIt) {
+  const std::vector<double> known = amplitudes_on_the_whole_curve(two_pi * 22.0);
+  ASSERT_EQ(known.size(), 3U);
+  const ResponseCurve curve = trace_response(with_stop(), range(two_pi * 22.0, two_pi * 30.0, 1));
+  ASSERT_EQ(curve.detached.size(), 1U);
+  const DetachedBranch& branch = curve.detached[0];
+  EXPECT_NEAR(branch.points.front().amplitude + branch.points.back().amplitude, known[1] + known[2],
+              1e-8 * known[2]);
+}
+
 TEST(BranchSearch, FindsTheOtherSolutionsAtASingleFrequency) {
   const std::vector<double> known = amplitudes_on_the_whole_curve(two_pi * 22.0);
   ASSERT_EQ(known.size(), 3U);
