@@ -209,6 +209,24 @@ std::string restless_text(const CurveResult& result) {
       result.name, where);
 }
 
+std::string unstable_peak_text(const CurveResult& result) {
+  constexpr double nearly = 0.99;  // just beyond a fold it is the fold that is met
+  const solver::ResponsePoint* peak = highest_peak(result.curve);
+  if (peak == nullptr || peak->stability != solver::Stability::unstable) return {};
+  const solver::ResponsePoint* stable = nullptr;
+  for (const solver::ResponsePoint& point : result.curve.points) {
+    if (is_unstable(point)) continue;
+    if (stable == nullptr || point.amplitude > stable->amplitude) stable = &point;
+  }
+  const bool is_told = stable == nullptr;  // by restless_text()
+  if (is_told || stable->amplitude > nearly * peak->amplitude) return {};
+  return fmt::format(
+      "curve {}: its peak, {:.4g} m at {:.6g} Hz, is unstable: no motion stays there; what is "
+      "stable reaches {:.4g} m, at {:.6g} Hz",
+      result.name, peak->amplitude, to_hz * peak->frequency, stable->amplitude,
+      to_hz * stable->frequency);
+}
+
 std::string rival_text(const CurveResult& result, const CurveBudget& budget) {
   constexpr double several = 3.0;  // bars: that of the other peak is not known
   constexpr double least = 1e-3;

@@ -31,6 +31,10 @@ namespace microslip::pipelines {
 /// period than the force, or none. Empty: nowhere.
 [[nodiscard]] std::string restless_text(const CurveResult& result);
 
+/// The peak that is told of a curve is unstable, and what is stable of it is lower by more than a
+/// per cent: no motion stays at that peak. Empty: it is not.
+[[nodiscard]] std::string unstable_peak_text(const CurveResult& result);
+
 /// Another peak of the curve that is as high as its highest, to what is known of it: a bar follows
 /// one peak. Empty: there is none, or no bar.
 [[nodiscard]] std::string rival_text(const CurveResult& result, const CurveBudget& budget);

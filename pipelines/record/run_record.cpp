@@ -420,7 +420,9 @@ void RunRecord::keep_curve(const CurveResult& result, const ReducedModel& model)
       progress_.warning(text);
   }
   warn_of_unsolved(result);
-  if (const std::string text = restless_text(result); !text.empty()) progress_.warning(text);
+  for (const std::string& text : {restless_text(result), unstable_peak_text(result)}) {
+    if (!text.empty()) progress_.warning(text);
+  }
   if (const std::string text = many_folds_text(result); !text.empty()) progress_.warning(text);
   if (const std::string text = left_out_text(result); !text.empty() && !refines_) {
     progress_.warning(text);

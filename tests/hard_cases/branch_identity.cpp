@@ -195,6 +195,32 @@ TEST(NoStableMotion, IsToldOfAPeakWhoseNeighboursOnlyHillsExponentsCallStable) {
   EXPECT_EQ(pipelines::restless_text(result), "");
 }
 
+// Row 50: a low stable branch lies below, so that there is a stable solution at every frequency.
+TEST(NoStableMotion, AtThePeakThatIsToldIsNamedThoughALowOneIsStable) {
+  using enum solver::Stability;
+  using enum solver::StabilityBasis;
+  pipelines::CurveResult result;
+  result.name = "scale_1";
+  const auto add = [&](double hz, solver::Stability stability, double amplitude) {
+    result.curve.points.push_back(point_at(hz, stability, hill));
+    result.curve.points.back().amplitude = amplitude;
+  };
+  add(10.0, stable, 1.0);
+  add(10.3, stable, 2.0);
+  add(10.2, unstable, 5.0);
+  result.curve.points.back().mark = PointMark::peak;
+  add(10.4, stable, 4.0);
+  const std::string text = pipelines::unstable_peak_text(result);
+  EXPECT_NE(text.find("curve scale_1: its peak, 5 m at 10.2 Hz, is unstable"), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("stable reaches 4 m, at 10.4 Hz"), std::string::npos) << text;
+  result.curve.points[3].amplitude = 4.99;  // beside the fold that is met
+  EXPECT_EQ(pipelines::unstable_peak_text(result), "");
+  result.curve.points[3].amplitude = 4.0;
+  result.curve.points[2].stability = stable;
+  EXPECT_EQ(pipelines::unstable_peak_text(result), "");
+}
+
 TEST(NoStableMotion, IsToldAtASingleFrequency) {
   pipelines::CurveResult result;
   result.name = "scale_1";
