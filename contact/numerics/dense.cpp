@@ -1,6 +1,10 @@
 #include "contact/dense.hpp"
 
+#include <sys/mman.h>
+#include <sys/resource.h>
+
 #include <complex>
+#include <cstddef>
 #include <limits>
 #include <vector>
 
@@ -21,13 +25,30 @@ namespace {
 // times at 270.
 constexpr Eigen::Index large = 64;
 
-bool is_large(const Eigen::MatrixXd& A) { return has_lapack && A.rows() >= large; }
+/// OpenBLAS asks for a buffer of 128 MB for every thread that calls it, and where the address space
+/// is limited (`ulimit -v`) and has none it asks for ever.
+bool has_room_for_lapack() {
+  static const bool has_room = [] {
+    constexpr std::size_t enough = std::size_t{1} << 30U;  // bytes
+    rlimit space{};
+    if (getrlimit(RLIMIT_AS, &space) != 0 || space.rlim_cur == RLIM_INFINITY) return true;
+    void* const probe = mmap(nullptr, enough, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    return probe != MAP_FAILED && munmap(probe, enough) == 0;
+  }();
+  return has_room;
+}
+
+bool is_large(const Eigen::MatrixXd& A) {
+  return has_lapack && A.rows() >= large && has_room_for_lapack();
+}
 
 // LAPACK's small-bulge sweeps begin at 76 rows and take twice the time of Eigen's single ones
 // there; at 100 rows they take a third more still.
 constexpr Eigen::Index large_problem = 128;
 
-bool is_large_problem(const Eigen::MatrixXd& A) { return has_lapack && A.rows() >= large_problem; }
+bool is_large_problem(const Eigen::MatrixXd& A) {
+  return has_lapack && A.rows() >= large_problem && has_room_for_lapack();
+}
 
 template <class Matrix>
 std::optional<Matrix> inverse_of(const Matrix& A) {
