@@ -56,6 +56,9 @@ class Lines {
   std::size_t number_ = 0;
 };
 
+/// Nothing is left of a line: of "1.9D+07" or "1,9" a part would be taken for the number.
+bool is_at_end(std::istringstream& words) { return (words >> std::ws).eof(); }
+
 bool read_is_symmetric(Lines& lines) {
   std::string header = lines.next("a header");
   std::ranges::transform(header, header.begin(),
@@ -77,7 +80,8 @@ std::array<Eigen::Index, 3> read_size(Lines& lines) {
   while (line.front() == '%') line = lines.next("the size");
   std::array<Eigen::Index, 3> size{};
   std::istringstream words(line);
-  if (!(words >> size[0] >> size[1] >> size[2]) || size[0] < 1 || size[2] < 0) {
+  const bool has_all = static_cast<bool>(words >> size[0] >> size[1] >> size[2]);
+  if (!has_all || !is_at_end(words) || size[0] < 1 || size[2] < 0) {
     lines.fail("expected numbers of rows, columns and entries");
   }
   if (size[0] != size[1])
@@ -94,8 +98,10 @@ Eigen::Triplet<double> read_entry(Lines& lines, Eigen::Index n) {
   Eigen::Index i = 0;
   Eigen::Index j = 0;
   double value = 0.0;
-  if (!(words >> i >> j >> value) || !std::isfinite(value)) {
-    lines.fail("expected row, column and a finite number");
+  const bool has_all = static_cast<bool>(words >> i >> j >> value);
+  if (!has_all || !is_at_end(words) || !std::isfinite(value)) {
+    lines.fail(fmt::format(
+        "expected row, column and a finite number, as 1 1 1.9e7; found \"{:.40}\"", line));
   }
   if (i < 1 || j < 1 || i > n || j > n) {
     lines.fail(fmt::format("entry ({}, {}) lies outside of {} rows and columns", i, j, n));

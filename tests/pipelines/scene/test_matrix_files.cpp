@@ -65,8 +65,14 @@ TEST(MatrixMarket, WhatIsWrongIsToldWithItsLine) {
             "K.mtx: the file ends at line 3; expected more entries, as the size says");
   EXPECT_EQ(refusal(symmetric + "2 2 2\n1 3 4\n"),
             "K.mtx:3: entry (1, 3) lies outside of 2 rows and columns");
-  EXPECT_EQ(refusal(symmetric + "2 2 2\n1 1 x\n"),
-            "K.mtx:3: expected row, column and a finite number");
+  for (const char* entry : {"1 1 x", "1 1 1.9D+07", "1 1 1,9", "1 1 4 7", "1.5 1 4"}) {
+    EXPECT_EQ(refusal(symmetric + "2 2 2\n" + entry + "\n"),
+              std::string("K.mtx:3: expected row, column and a finite number, as 1 1 1.9e7; "
+                          "found \"") +
+                  entry + "\"");
+  }
+  EXPECT_EQ(refusal(symmetric + "2 2 2.5\n"),
+            "K.mtx:2: expected numbers of rows, columns and entries");
   EXPECT_EQ(refusal("%%MatrixMarket matrix coordinate real general\n2 2 3\n1 1 4\n1 2 1\n2 2 4\n"),
             "K.mtx: the matrix is not symmetric: entry (1, 2) is 1, (2, 1) is 0");
   EXPECT_EQ(
