@@ -39,6 +39,8 @@ constexpr std::array result_names{"curves",
                                   "report.html",
                                   "scene.toml",
                                   "summary.json",
+                                  "log.txt",
+                                  "history.csv",
                                   "peak_against_preload.csv",
                                   "peak_against_parameter.csv"};
 
@@ -58,7 +60,9 @@ int lock_folder(const fs::path& folder) {
 
 void require_own(const fs::path& folder) {
   const auto holds = [&](const char* name) { return fs::exists(folder / name); };
-  if (RunFolder::has_list(folder) || (holds("scene.toml") && holds("log.txt"))) return;
+  // Runs of earlier programs have no list.
+  const bool is_earlier = holds("scene.toml") && holds("log.txt") && holds("summary.json");
+  if (RunFolder::has_list(folder) || is_earlier) return;
   for (const char* name : result_names) {
     if (!holds(name)) continue;
     throw SceneError(

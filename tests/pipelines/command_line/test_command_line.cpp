@@ -576,6 +576,12 @@ TEST_F(Program, RemovesNothingThatNoRunHasWritten) {
   expect("run scene.toml -q -o results", 1, {"results", "plots", "choose another folder"});
   EXPECT_EQ(content_of(path("results/plots/mine.svg")), "mine");
   EXPECT_FALSE(exists("results/scene.toml"));
+  write(path("log.txt"), "notes");
+  expect("run scene.toml -q -o .", 1, {"-o .", "scene.toml", "choose another folder"});
+  std::filesystem::create_directories(path("notes"));
+  write(path("notes/log.txt"), "notes");
+  expect("run scene.toml -q -o notes", 1, {"-o notes", "log.txt", "choose another folder"});
+  EXPECT_EQ(content_of(path("notes/log.txt")), "notes");
 }
 
 TEST_F(Program, ARunReplacesAnEarlierOneWholeAndNothingElse) {
@@ -736,6 +742,9 @@ TEST_F(Program, LittleAddressSpaceIsNoHang) {
     const Outcome outcome = run("run scene.toml -q -j 2 -o out", limit);
     EXPECT_TRUE(outcome.code == 0 || outcome.code == 4) << outcome.code << outcome.err;
     EXPECT_FALSE(exists("out/.lock")) << megabytes;
+    const Outcome large = run(  // matrices that are worth a call of LAPACK
+        "run '" MICROSLIP_SCENES "/chain_2dof.toml' -q -j 1 --without plots -o large", limit);
+    EXPECT_TRUE(large.code == 0 || large.code == 4) << megabytes << ": " << large.code << large.err;
   }
 }
 
