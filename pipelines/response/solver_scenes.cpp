@@ -31,18 +31,22 @@ std::unique_ptr<contact::TransientForce> transient_force(const ReducedModel& mod
   return model.patches.empty() ? nullptr : contact_of(model, load).transient_force();
 }
 
+/// The highest harmonic that a mode of the structure may answer in the range.
+int order_of_modes(const ReducedModel& model, const ResponseDescription& response, int most) {
+  const Eigen::Index n_free = model.frequency.size() - model.n_attachment;
+  const double top = n_free > 0 ? model.frequency.head(n_free).maxCoeff() : 0.0;
+  const double lowest =
+      contact::two_pi * std::min(response.frequency_begin_hz, response.frequency_end_hz);
+  return static_cast<int>(std::min(std::floor(top / lowest), static_cast<double>(most)));
+}
+
 /// Chosen harmonics end where the modes do: beyond, a harmonic meets resonances of attachment
 /// shapes, which no structure has. The first nine are always meant:
 /// attachment shapes answer them like springs.
 int most_meant(const ReducedModel& model, const ResponseDescription& response, int highest) {
   if (model.n_attachment == 0) return highest;
   constexpr int least = 9;
-  const Eigen::Index n_free = model.frequency.size() - model.n_attachment;
-  const double top = n_free > 0 ? model.frequency.head(n_free).maxCoeff() : 0.0;
-  const double lowest =
-      contact::two_pi * std::min(response.frequency_begin_hz, response.frequency_end_hz);
-  const double orders = std::min(std::floor(top / lowest), static_cast<double>(highest));
-  return std::clamp(static_cast<int>(orders), std::min(least, highest), highest);
+  return std::clamp(order_of_modes(model, response, highest), std::min(least, highest), highest);
 }
 
 bool has_constant_load(const contact::Patch& patch, const ContactEffects& effects) {
@@ -120,6 +124,10 @@ solver::ContinuationOptions continuation_options(const SceneDescription& scene,
   options.frequency_end = contact::two_pi * response.frequency_end_hz;
   options.n_harmonics =
       harmonics.chosen() ? most_meant(model, response, harmonics.highest) : harmonics.highest;
+  constexpr int highest_asked = 100;  // whether it resonates: a line of a force each
+  if (harmonics.chosen()) {
+    options.highest_resonance = order_of_modes(model, response, highest_asked);
+  }
   options.orders = harmonics.orders;
   const bool given = options.orders.empty() && !harmonics.chosen();
   if (given && has_odd_motions(model)) {

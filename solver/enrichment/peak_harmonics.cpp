@@ -33,9 +33,10 @@ constexpr int most_rounds = 15;
 constexpr double too_far = 4.0;
 constexpr double stays_within = 0.5;
 
-std::vector<int> beyond(const HarmonicSet& set, const Harmonics& force, double scale) {
+/// Up to `highest`, as far as the force is known.
+std::vector<int> beyond(const HarmonicSet& set, const Harmonics& force, double scale, int highest) {
   std::vector<int> orders;
-  for (int k = 1; k <= force.n_harmonics(); ++k) {
+  for (int k = 1; k <= std::min(highest, force.n_harmonics()); ++k) {
     const double size = std::hypot(force.sine(k).norm(), force.cosine(k).norm());
     if (size > silent * scale && !set.contains(k)) orders.push_back(k);
   }
@@ -69,13 +70,21 @@ PeakHarmonicsChoice::Estimate PeakHarmonicsChoice::estimate(const HarmonicSet& s
   if (!scene_.contact) return result;
   HarmonicBalance coarse(scene_, set);
   const int highest = std::max(set.highest(), range_.n_harmonics);
-  const Harmonics force = coarse.contact_force(peak.point.x, peak.point.parameter, highest);
-  const std::vector<int> orders = beyond(set, force, peak.scaling.residual);
+  const int reach = std::max(highest, range_.highest_resonance);
+  const Harmonics force = coarse.contact_force(peak.point.x, peak.point.parameter, reach);
+  const std::vector<int> all = beyond(set, force, peak.scaling.residual, reach);
+  if (all.empty()) return result;
+  const BalanceEvaluation at = coarse.evaluate(peak.point.x, peak.point.parameter);
+  ++work_.contact_evaluations;
+  for (const int k :
+       resonant_orders(coarse, peak.point, at.jacobian.dense(), force, range_.harmonic_tolerance)) {
+    if (std::ranges::count(all, k) > 0) result.resonant.push_back(k);
+  }
+  const std::vector<int> orders = beyond(set, force, peak.scaling.residual, highest);
   if (orders.empty()) return result;
   HarmonicBalance richer(scene_, set.united(orders));
   const std::vector<RicherShare> shares = richer_shares(richer, embedded(peak, coarse, richer));
-  const BalanceEvaluation at = coarse.evaluate(peak.point.x, peak.point.parameter);
-  work_.contact_evaluations += 3;
+  work_.contact_evaluations += 2;
   for (const RicherShare& share : shares) {
     if (share.order == 0 || set.contains(share.order)) continue;
     result.shares.push_back(share);
@@ -83,10 +92,6 @@ PeakHarmonicsChoice::Estimate PeakHarmonicsChoice::estimate(const HarmonicSet& s
   }
   std::ranges::stable_sort(result.shares, std::ranges::greater{},
                            [](const RicherShare& share) { return std::abs(share.amplitude); });
-  for (const int k :
-       resonant_orders(coarse, peak.point, at.jacobian.dense(), force, range_.harmonic_tolerance)) {
-    if (std::ranges::count(orders, k) > 0) result.resonant.push_back(k);
-  }
   return result;
 }
 

@@ -52,7 +52,7 @@ std::vector<int> resonances_along(const Scene& scene, const ContinuationOptions&
                                   const HarmonicSet& set, const ResponseCurve& curve) {
   if (!scene.contact || curve.points.size() < 2 || !curve.certificate.empty()) return {};
   HarmonicBalance balance(scene, set);
-  const int highest = std::max(set.highest(), range.n_harmonics);
+  const int highest = std::max({set.highest(), range.n_harmonics, range.highest_resonance});
   const auto top = std::ranges::max_element(curve.points, {}, &ResponsePoint::amplitude);
   const double of_motion = range.harmonic_tolerance * first_harmonic(*top);
   const double of_output = range.harmonic_tolerance * top->amplitude;
