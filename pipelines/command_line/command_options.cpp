@@ -26,6 +26,9 @@ CLI::App* add_command(CLI::App& app, Arguments& a, Action& chosen, const char* n
   return command;
 }
 
+/// As of a variable of the shell that is not set. @return what CLI11 says of it.
+std::string not_empty(const std::string& value) { return value.empty() ? "expected a value" : ""; }
+
 CLI::App* with_scene(CLI::App* command, Arguments& a) {
   command->add_option("scene", a.input, "scene file (TOML)")->required();
   return command;
@@ -202,8 +205,10 @@ void add_global_options(CLI::App& app, Arguments& a) {
       "mesh and solve anew: take nothing of earlier runs and keep nothing for later ones (the "
       "folder: MICROSLIP_CACHE, else XDG_CACHE_HOME/microslip, else ~/.cache/microslip)");
   app.add_option("--tolerance", a.tolerance,
-                 "accuracy asked for of every peak, e.g. 1%: accuracy.tolerance of the scene");
-  app.add_option("--budget", a.budget, "wall time allowed, e.g. 60s: accuracy.budget of the scene");
+                 "accuracy asked for of every peak, e.g. 1%: accuracy.tolerance of the scene")
+      ->check(not_empty);
+  app.add_option("--budget", a.budget, "wall time allowed, e.g. 60s: accuracy.budget of the scene")
+      ->check(not_empty);
   app.add_flag("--dry-run", a.dry_run, "check the scene and stop, as `check` does");
   auto* quiet = app.add_flag("-q,--quiet", a.quiet, "warnings and errors only");
   app.add_flag("-v,--verbose", a.verbose, "one line per solution point")->excludes(quiet);

@@ -116,9 +116,16 @@ std::string curve_row(const JsonEntry& curve) {
   std::string peak_text = "– | –";
   if (curve.has("peak")) {
     const JsonEntry peak = curve.at("peak");
-    peak_text = fmt::format("{:.4f}{} | {:.5g}", peak.number("frequency_Hz"),
+    const auto number = [&](const char* key, const char* goal, const char* usual) {
+      const double value = peak.number(key);
+      std::string text = fmt::format(fmt::runtime(usual), value);
+      if (!curve.has("bar") || !curve.at("bar").has(goal)) return text;
+      std::string told = with_digits_of(value, curve.at("bar").number(goal));
+      return told.size() < text.size() ? told : text;
+    };
+    peak_text = fmt::format("{}{} | {}", number("frequency_Hz", peak_frequency_goal, "{:.4f}"),
                             place_of(peak) == "range_end" ? " (end of the range)" : "",
-                            peak.number("amplitude_m"));
+                            number("amplitude_m", peak_amplitude_goal, "{:.5g}"));
   }
   std::string folds;
   for (const JsonEntry& fold : curve.list("folds_Hz")) {

@@ -287,7 +287,7 @@ std::string left_out_text(const CurveResult& result) {
         "curve; set response.harmonics = {} or \"auto\"",
         result.name, richer.highest, given, richer.highest);
   }
-  if (std::abs(*richer.change) < worth_a_warning) return {};
+  if (!(std::abs(*richer.change) >= worth_a_warning)) return {};  // nor of what does not move
   return fmt::format(
       "curve {}: with harmonics up to {} its peak is {:.3g} m at {:.4g} Hz: harmonics up to {} put "
       "it {:.0f} % too "
