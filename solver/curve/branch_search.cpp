@@ -95,8 +95,8 @@ ContinuationOptions range_about(const Scene& scene, ContinuationOptions options)
   return options;
 }
 
-/// From a resonance beside the range, free or stuck, through the end next to it: a branch that leans
-/// into the range rises there. Begins where motions are small.
+/// From a resonance beside the range, free or stuck, through the end next to it: a branch that
+/// leans into the range rises there. Begins where motions are small.
 std::vector<ContinuationOptions> ranges_from_beside(const Scene& scene,
                                                     const ContinuationOptions& options,
                                                     const HarmonicSet& set) {

@@ -111,6 +111,21 @@ TEST(PeakHarmonics, AResonanceFarUpIsFoundAlthoughThoseBeforeItDoLittle) {
   EXPECT_NEAR(found.peak->amplitude, reference->amplitude, 5e-3 * reference->amplitude);
 }
 
+// Harmonics that are asked what they do end at the second; that of the resonance is asked whether it
+// resonates.
+TEST(PeakHarmonics, AResonanceAboveTheHighestThatIsAskedIsFound) {
+  const Scene scene = resonant_chain(50.0, 3.0, 0.002);
+  ContinuationOptions range = choosing(5e-3);
+  range.n_harmonics = 2;
+  const auto few = tests::solved_peak(scene, range, 1);
+  const PeakHarmonics without = PeakHarmonicsChoice(scene, range).choose(1, few.peak, 1);
+  EXPECT_FALSE(without.set.contains(3));
+  range.highest_resonance = 4;
+  const PeakHarmonics found = PeakHarmonicsChoice(scene, range).choose(1, few.peak, 1);
+  EXPECT_TRUE(found.set.contains(3));
+  EXPECT_FALSE(found.set.contains(4));
+}
+
 TEST(PeakHarmonics, ResonantOrdersAreThoseNearAMode) {
   const Scene scene = resonant_chain(50.0, 3.0, 0.02);
   HarmonicBalance one(scene, 1);
