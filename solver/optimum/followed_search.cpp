@@ -271,6 +271,16 @@ class Search {
     return wide ? std::optional(flat) : std::nullopt;
   }
 
+  /// Of those that were traced whole: peaks that were followed there may not be the highest.
+  [[nodiscard]] PeakOfParameter lowest_curve() const {
+    PeakOfParameter least = result_.best;
+    for (const PeakOfParameter& one : result_.trace) {
+      const bool is_known = one.whole_curve && one.place != PeakPlace::unsolved;
+      if (is_known && (!least.whole_curve || one.amplitude < least.amplitude)) least = one;
+    }
+    return least;
+  }
+
   [[nodiscard]] bool at_bound() const {
     // Values of the scan are made from positions and rounded.
     const double rounding = on_scale(options_, 1e-9);
@@ -345,9 +355,11 @@ class Search {
     result_.reason = reason();
     result_.objection = objection();
     result_.found = result_.reason == NotFound::none;
-    result_.message = result_.reason == NotFound::out_of_time
-                          ? lowest_so_far(result_.best)  // what lies beside it was not solved
-                          : valley(result_.trace, result_.best);
+    if (result_.reason == NotFound::unsettled) result_.best = lowest_curve();
+    // What lies beside it was not solved, or is another peak.
+    const bool is_cut =
+        result_.reason == NotFound::out_of_time || result_.reason == NotFound::unsettled;
+    result_.message = is_cut ? lowest_so_far(result_.best) : valley(result_.trace, result_.best);
     if (!result_.found) result_.message = result_.objection + "; " + result_.message;
     if (result_.best.place == PeakPlace::range_end && !one_frequency_) {
       result_.message += "; the largest amplitude lies at an end of the frequency range";
