@@ -26,20 +26,36 @@ std::string header() {
                      sizeof(solver::ResponseCurve), sizeof(CurveResult), sizeof(StructureModes));
 }
 
-/// The values of a completed scene by their path; repeated sections are numbered.
+/// The values of a completed scene by their path; repeated sections are numbered, and so are the
+/// lines of a list that has several.
 std::map<std::string, std::string> values_of(const std::string& scene_toml) {
   std::map<std::string, std::string> values;
   std::map<std::string, int> repeated;
   std::string section;
+  std::string list;  // whose lines are read
+  int n_lines = 0;
   std::istringstream lines(scene_toml);
   for (std::string line; std::getline(lines, line);) {
+    if (!list.empty() && line.starts_with(" ")) {
+      const std::size_t begin = line.find_first_not_of(' ');
+      const std::size_t end = line.find_last_not_of(", ");
+      values[fmt::format("{}[{}]", list, n_lines++)] = line.substr(begin, end + 1 - begin);
+      continue;
+    }
+    list.clear();
     if (line.starts_with("[[")) {
       section = line.substr(2, line.find(']') - 2);
       section += fmt::format("[{}].", ++repeated[section]);
     } else if (line.starts_with("[")) {
       section = line.substr(1, line.find(']') - 1) + ".";
     } else if (const auto equals = line.find(" = "); equals != std::string::npos) {
-      values[section + line.substr(0, equals)] = line.substr(equals + 3);
+      const std::string key = section + line.substr(0, equals);
+      if (line.ends_with(" [")) {
+        list = key;
+        n_lines = 0;
+      } else {
+        values[key] = line.substr(equals + 3);
+      }
     }
   }
   return values;

@@ -405,6 +405,12 @@ std::string scene_of_modes(const std::filesystem::path& file, const std::filesys
   }
   if (file.extension() == ".mtx") return scene_of_matrices(file, mesh, folder);
   const std::filesystem::path own = mesh.empty() ? mesh_of(file) : mesh;
+  if (is_punch_file(file) && !is_nastran_deck(own)) {
+    throw SceneError(fmt::format(
+        "{}: a punched file tells nodes by their numbers: expected the deck these modes were "
+        "computed with (.bdf, .nas, .fem), not {}",
+        file.string(), own.string()));
+  }
   const MeshOfFile read = read_mesh(own, std::nullopt);
   SceneMaker maker(read, own);
   maker.set_file("model.file", file, folder);

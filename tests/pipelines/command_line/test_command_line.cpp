@@ -627,6 +627,11 @@ TEST_F(Program, ResumesOnlyWhatWasBegun) {
   EXPECT_EQ(content_of(path("out/summary.json")), before);
   expect("run scene.toml --resume -o out --set modal.damping_ratio=0.02", 1,
          {"--resume: modal.damping_ratio is", "0.02", "0.01", "out/scene.toml"});
+  const std::string chain =
+      "run '" MICROSLIP_SCENES "/chain_2dof.toml' -q --without plots -o chain";
+  expect(chain, 0, {});
+  expect(chain + " --resume --set contact.points[0].friction_coefficient=0.4", 1,
+         {"--resume: contact.points[0] is {", "friction_coefficient = 0.4", "but {"});
 }
 
 TEST_F(Program, RefusesARigidBodyModeThatNothingHolds) {
