@@ -27,6 +27,9 @@ constexpr double of_many_events = 3.2;
 constexpr double of_one_point_that_opens = 4.0;
 // An effect put back at the peaks of a curve: of a mesh, with a peak or two; of numbers.
 constexpr double of_an_effect_on_a_mesh = 60.0;
+// Times that, for friction along r: the peak and points along the curve are solved for in a plane.
+// Measured on the plates of share/scenes.
+constexpr double of_the_second_direction_on_a_mesh = 40.0;
 constexpr double of_an_effect = 600.0;
 constexpr double of_one_frequency = 25.0;
 constexpr double of_a_check = 30.0;  // of the peak, with eight harmonics more than were given
@@ -293,17 +296,23 @@ std::vector<bool CurveEffects::*> members_left_out(const SceneDescription& scene
 }
 
 /// One evaluation with each of the effects that are left out, and one with all of them, where there
-/// are several.
+/// are several; more of those that are solved for more often.
 double evaluations_with(const SceneDescription& scene, const CurveEffects& effects) {
   const std::vector<bool CurveEffects::*> members = members_left_out(scene);
+  const auto seconds_with = [&](const CurveEffects& richer) {
+    const bool in_plane = richer.second_direction && !effects.second_direction;
+    const double often =
+        in_plane && !scene.contacts.empty() ? of_the_second_direction_on_a_mesh : 1.0;
+    return often * evaluation_seconds(richer, size_of(scene, richer));
+  };
   CurveEffects all = effects;
   double seconds = 0.0;
   for (bool CurveEffects::*member : members) {
     CurveEffects one = effects;
     if (member != nullptr) one.*member = all.*member = true;
-    seconds += evaluation_seconds(one, size_of(scene, one));
+    seconds += seconds_with(one);
   }
-  return members.size() > 1 ? seconds + evaluation_seconds(all, size_of(scene, all)) : seconds;
+  return members.size() > 1 ? seconds + seconds_with(all) : seconds;
 }
 
 /// Of a motion in time, as many integrations.

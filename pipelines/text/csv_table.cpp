@@ -123,6 +123,12 @@ CsvTable CsvTable::parse(std::string_view text, const std::string& name, Tiny ti
 }
 
 void CsvTable::read_header(const std::vector<std::string_view>& cells, std::size_t line) {
+  if (cells.size() == 1 && cells[0].find_first_of(";\t") != std::string_view::npos) {
+    throw SceneError(fmt::format(
+        "{}:{}: columns are separated by {}; expected commas, and points "
+        "in numbers",
+        name_, line, cells[0].find(';') != std::string_view::npos ? "semicolons" : "tabs"));
+  }
   std::set<std::string_view> seen;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     if (cells[i].empty()) {

@@ -395,6 +395,9 @@ TEST(BadCycleTable, ColumnsAreTold) {
   expect_complaint(with("v_sinn", "0"), {"unknown column \"v_sinn\"", "did you mean \"v_sin\"?"});
   expect_complaint(with("zzzzzzzzzzzzzzzz", "0"), {"known: ", "u_mean"});
   expect_complaint(with("u_sin", "0"), {"\"u_sin\" stands twice"});
+  expect_complaint("preload;u_sin\n1,5;3\n",
+                   {"points.csv:1: columns are separated by semicolons; expected commas"});
+  expect_complaint("preload\tu_sin\n1\t3\n", {"points.csv:1: ", "by tabs"});
   expect_complaint(with("", "0"), {"column 10 has no name"});
   expect_complaint("", {"empty"});
 }
