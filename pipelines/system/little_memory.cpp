@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdlib>
@@ -29,6 +30,16 @@ void give_reserve() {
   throw std::bad_alloc();
 }
 
+/// The stack of the first thread grows when it is used: where no address space is left by then, a
+/// signal ends the process.
+[[gnu::noinline]] void grow_stack() {
+  constexpr std::size_t enough = std::size_t{1} << 20U;  // bytes: Eigen puts blocks there
+  constexpr std::size_t page = 4096;
+  std::array<char, enough> room;
+  volatile char* const begin = room.data();
+  for (std::size_t i = 0; i < enough; i += page) begin[i] = 0;
+}
+
 [[noreturn]] void end_at_once() {
   const std::string_view words =
       is_used_up ? "microslip: out of memory\n"
@@ -41,6 +52,7 @@ void give_reserve() {
 }  // namespace
 
 void prepare_for_little_memory() {
+  grow_stack();
   reserve = std::malloc(kept_back);
   std::set_new_handler(give_reserve);
   std::set_terminate(end_at_once);
