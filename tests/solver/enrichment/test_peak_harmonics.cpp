@@ -111,8 +111,8 @@ TEST(PeakHarmonics, AResonanceFarUpIsFoundAlthoughThoseBeforeItDoLittle) {
   EXPECT_NEAR(found.peak->amplitude, reference->amplitude, 5e-3 * reference->amplitude);
 }
 
-// Harmonics that are asked what they do end at the second; that of the resonance is asked whether it
-// resonates.
+// Harmonics that are asked what they do end at the second; that of the resonance is asked whether
+// it resonates.
 TEST(PeakHarmonics, AResonanceAboveTheHighestThatIsAskedIsFound) {
   const Scene scene = resonant_chain(50.0, 3.0, 0.002);
   ContinuationOptions range = choosing(5e-3);
