@@ -170,7 +170,9 @@ struct Step {
 };
 
 Step step_between(const mesh::Mesh& coarse, const mesh::Mesh& fine, const SceneDescription& scene) {
-  return {mesh::interpolation(coarse, fine.nodes()), refinement_between(fine, coarse, scene)};
+  constexpr double least = 1.25;  // of nearly the same mesh little is known, not without bound
+  return {mesh::interpolation(coarse, fine.nodes()),
+          std::max(least, refinement_between(fine, coarse, scene))};
 }
 
 /// The bases of three meshes: those of h and 2h are extrapolated, the same columns of both.
