@@ -34,6 +34,7 @@ constexpr double unbounded = 1e6;     // of a linear response, over the amplitud
 // Closer to a known solution, over the amplitude, it is that solution.
 constexpr double distinct = 1e-5;
 constexpr std::size_t most_branches = 10;
+constexpr int most_points_beside = 2000;  // of what is no row; a curve takes some hundred
 
 /// Resonances with a stiffness added [rad/s].
 Eigen::VectorXd resonances(const Scene& scene, const Eigen::MatrixXd& stiffness) {
@@ -89,9 +90,8 @@ ContinuationOptions range_about(const Scene& scene, ContinuationOptions options)
   }
   options.frequency_begin = std::max(low, (1.0 - farthest) * frequency);
   options.frequency_end = std::min(high, (1.0 + farthest) * frequency);
-  options.judge_stability = options.require_proof = false;  // of what is no row
-  constexpr int most_points = 2000;                         // a curve takes some hundred
-  options.max_points = std::min(options.max_points, most_points);
+  options.judge_stability = options.require_proof = false;
+  options.max_points = std::min(options.max_points, most_points_beside);
   return options;
 }
 
@@ -115,7 +115,9 @@ std::vector<ContinuationOptions> ranges_from_beside(const Scene& scene,
   }
   ContinuationOptions range = with_harmonics(options, set);
   range.search_starts = 0;
-  range.judge_stability = range.require_proof = false;  // of what is no row
+  range.near_begin.reset();
+  range.judge_stability = range.require_proof = false;
+  range.max_points = std::min(range.max_points, most_points_beside);
   std::vector<ContinuationOptions> ranges;
   const auto add = [&](double begin, double end) {
     range.frequency_begin = begin;
@@ -133,6 +135,7 @@ class Search {
       : scene_(scene), options_(options), curve_(curve) {}
 
   void run() {
+    trace_beside();
     for (const double frequency : search_frequencies(scene_, options_, curve_)) {
       if (is_stopped()) return;
       search_at(frequency);
@@ -142,13 +145,7 @@ class Search {
 
  private:
   void search_at(double frequency) {
-    // All harmonics that the branches known have: solutions are compared in the same unknowns.
-    HarmonicSet set = first_harmonics(scene_, options_);
-    for (const ResponsePoint& point : curve_.points) set = set.united(point.orders);
-    for (const DetachedBranch& branch : curve_.detached) {
-      for (const ResponsePoint& point : branch.points) set = set.united(point.orders);
-    }
-    balance_ = std::make_unique<HarmonicBalance>(scene_, std::move(set));
+    balance_ = std::make_unique<HarmonicBalance>(scene_, known_harmonics());
     std::vector<Eigen::VectorXd> known = known_at(frequency);
     if (frequency == options_.frequency_begin || frequency == options_.frequency_end) {
       keep_entries(frequency, known);
@@ -162,31 +159,50 @@ class Search {
       const std::optional<Eigen::VectorXd> found =
           deflated(start(i, frequency, known), frequency, known);
       if (!found) continue;
-      NewtonResult solution = solved_near(*found, frequency);
-      if (!solution.converged || near(solution.point.x, known)) continue;
-      const Eigen::VectorXd x = solution.point.x;
-      keep_branch(std::move(solution));
-      known = known_at(frequency);  // the branch may come back to this frequency
-      if (!near(x, known)) known.push_back(x);
-      if (is_point()) keep_crossings(x, frequency, known);
+      const auto x = keep_new(*found, frequency, known);
+      if (x && is_point()) keep_crossings(*x, frequency, known);
+    }
+  }
+
+  /// All that the branches known have: solutions are compared in the same unknowns.
+  [[nodiscard]] HarmonicSet known_harmonics() const {
+    HarmonicSet set = first_harmonics(scene_, options_);
+    for (const ResponsePoint& point : curve_.points) set = set.united(point.orders);
+    for (const DetachedBranch& branch : curve_.detached) {
+      for (const ResponsePoint& point : branch.points) set = set.united(point.orders);
+    }
+    return set;
+  }
+
+  /// The branch of a solution near a guess. @return  the solution; empty: none, or one known.
+  std::optional<Eigen::VectorXd> keep_new(const Eigen::VectorXd& guess, double frequency,
+                                          std::vector<Eigen::VectorXd>& known) {
+    NewtonResult solution = solved_near(guess, frequency);
+    if (!solution.converged || near(solution.point.x, known)) return std::nullopt;
+    Eigen::VectorXd x = solution.point.x;
+    keep_branch(std::move(solution));
+    known = known_at(frequency);  // the branch may come back to this frequency
+    if (!near(x, known)) known.push_back(x);
+    return x;
+  }
+
+  void trace_beside() {
+    const PointObserver goes_on = [&](const ResponsePoint& /*point*/) { return !is_stopped(); };
+    for (const ContinuationOptions& range :
+         ranges_from_beside(scene_, options_, known_harmonics())) {
+      if (is_stopped()) return;
+      beside_.push_back({range, CurveTracer(scene_, range, goes_on).run()});
+      curve_.iterations += beside_.back().curve.iterations;
+      curve_.contact_evaluations += beside_.back().curve.contact_evaluations;
     }
   }
 
   /// Branches that come in at an end of the range from resonances beside it.
   void keep_entries(double frequency, std::vector<Eigen::VectorXd>& known) {
-    for (const ContinuationOptions& range : ranges_from_beside(scene_, options_, balance_->set())) {
-      if (is_stopped()) return;
-      const PointObserver goes_on = [&](const ResponsePoint& /*point*/) { return !is_stopped(); };
-      const ResponseCurve beside = CurveTracer(scene_, range, goes_on).run();
-      count(static_cast<int>(beside.iterations), static_cast<int>(beside.contact_evaluations));
+    for (const auto& [range, beside] : beside_) {
       for (const ResponsePoint& point : points_at_frequency(scene_, beside, frequency, range)) {
-        if (curve_.detached.size() >= most_branches) return;
-        NewtonResult solution = solved_near(balance_->unknowns(point.q), frequency);
-        if (!solution.converged || near(solution.point.x, known)) continue;
-        const Eigen::VectorXd x = solution.point.x;
-        keep_branch(std::move(solution));
-        known = known_at(frequency);
-        if (!near(x, known)) known.push_back(x);
+        if (curve_.detached.size() >= most_branches || is_stopped()) return;
+        static_cast<void>(keep_new(balance_->unknowns(point.q), frequency, known));
       }
     }
   }
@@ -464,6 +480,11 @@ class Search {
     Diagnosis diagnosis;
   };
   std::vector<Cut> cut_;  // ends of branches within their range
+  struct CurveBeside {
+    ContinuationOptions range;
+    ResponseCurve curve;
+  };
+  std::vector<CurveBeside> beside_;  // from resonances beside the range into it
 };
 
 }  // namespace
