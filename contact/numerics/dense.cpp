@@ -29,7 +29,7 @@ constexpr Eigen::Index large = 64;
 /// is limited (`ulimit -v`) and has none it asks for ever.
 bool has_room_for_lapack() {
   static const bool has_room = [] {
-    constexpr std::size_t enough = std::size_t{1} << 30U;  // bytes
+    constexpr std::size_t enough = std::size_t{1} << 30U;  // bytes: eight threads
     rlimit space{};
     if (getrlimit(RLIMIT_AS, &space) != 0 || space.rlim_cur == RLIM_INFINITY) return true;
     void* const probe = mmap(nullptr, enough, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);

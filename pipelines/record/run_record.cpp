@@ -523,7 +523,11 @@ void RunRecord::keep_optimum(const ReducedModel& model, const OptimumRequest& re
                            : fmt::format("best {} under the static preload", request.key);
   const std::string beside = budget.has_bar() ? after_bar(left_out()) : "";
   const std::string told = fmt::format("{}: {}{}", what, best_text(optimum, unit, budget), beside);
-  optimum.found ? progress_.info(told) : progress_.warning(told);
+  if (optimum.found) {
+    progress_.info(told);
+  } else {
+    progress_.warning(told);
+  }
   for (const std::string& note : optimum.notes) progress_.info("optimum: " + note);
   for (const std::string& warning : optimum.warnings) progress_.warning("optimum: " + warning);
   if (const std::string text = crossing_text(optimum); !text.empty()) {

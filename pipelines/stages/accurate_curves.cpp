@@ -120,7 +120,7 @@ void look_at(const Solution& solution, RunRecord& record, AccuracySummary& accur
   accuracy.left_out = record.left_out();
 }
 
-/// Only limits, or no contact: nothing has an error that is told.
+/// Else nothing has an error that is told: limits of modes that are given.
 bool has_budgets(const Solution& solution) {
   return std::ranges::any_of(solution.budgets, [](const CurveBudget& one) {
     return !one.rows.empty() || !one.unknown.empty();

@@ -189,8 +189,8 @@ ExtrapolationRatios extrapolate(fem::ModalBasis& fine, const Interpolation& to_f
     const Eigen::Index j = in_coarse[i].column;
     if (j >= 0) ratios_of_coarse[static_cast<std::size_t>(j)] = ratios[i];
   }
-  // The modes themselves as if sizes were halved: too little is left to the error, which those of
-  // 2h tell, whose elements may hardly be smaller than those of 4h.
+  // As if sizes were halved: where they were not, too little is taken off, which is the safe side.
+  // Those of 2h tell the error of that, and their elements may be hardly smaller than those of 4h.
   extrapolate(fine, coarse_at_fine, in_coarse, ratios);
   extrapolate(coarse, coarsest_at_coarse, in_coarsest,
               over(std::move(ratios_of_coarse), to_coarse.refinement));

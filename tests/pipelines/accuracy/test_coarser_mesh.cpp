@@ -77,7 +77,7 @@ TEST(CoarserMesh, IsNotKnownWhereItIsTheSame) {
   EXPECT_NE(note.find("the same mesh"), std::string::npos) << note;
 }
 
-// Under a large load the contact sticks.
+// Under a large load the contact sticks; without contact the same elements err alike, to a third.
 TEST(ErrorBudget, OfALimitIsThatOfACurveNextToIt) {
   const SceneDescription scene = coarse_blade();
   const SolvedStructure structure = structure_of(scene);

@@ -142,6 +142,7 @@ TEST_F(Program, NamesWhatIsWrongWithACommandLine) {
   expect("run scene.toml -j many", 1, {"--jobs"});
   expect("run scene.toml -q -v", 1, {"--quiet"});
   expect("run scene.toml -o ''", 1, {"--output", "expected a name"});
+  expect("run scene.toml --tolerance ''", 1, {"--tolerance", "expected a value"});
   expect("check a.toml b.toml", 1, {"b.toml"});
   expect("mesh scene.toml", 1, {"--output"});
   expect("check scene.toml --set", 1, {"--set"});

@@ -5,6 +5,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <numbers>
 #include <vector>
 
 #include <fmt/format.h>
@@ -138,6 +139,22 @@ TEST(WriteReport, ReportTellsWhichEffectsWereSimulatedAndWhatTheOthersWouldChang
   }
   run.effects.clear();
   EXPECT_EQ(report_text(summary_json(run), {}).find("## Effects"), std::string::npos);
+}
+
+TEST(WriteReport, PeaksHaveTheDigitsThatTheirBarAllows) {
+  RunSummary run;
+  run.curves = {summarise(synthetic::curve("preload_100", 100.0, 305.0, 5e-5, 8.0)),
+                summarise(synthetic::curve("preload_200", 200.0, 305.0, 5e-5, 8.0))};
+  ASSERT_TRUE(run.curves[0].peak);
+  for (CurveSummary& curve : run.curves) {
+    curve.peak->frequency = 2.0 * std::numbers::pi * 305.12345678;
+    curve.peak->amplitude = 5.12345e-5;
+  }
+  run.error_budget = {{"preload_100", peak_amplitude_goal, "mesh", 0.3},
+                      {"preload_100", peak_frequency_goal, "mesh", 0.02}};
+  const std::string report = report_text(summary_json(run), {});
+  EXPECT_NE(report.find("| 305 | 0.000051 |"), std::string::npos) << report;
+  EXPECT_NE(report.find("| 305.1235 | 5.1234e-05 |"), std::string::npos) << "no bar: " << report;
 }
 
 TEST(WriteReport, DamagedCurveCostsThePlotsNotTheRun) {

@@ -109,6 +109,19 @@ TEST_F(Folder, AFolderOfAVersionThatKeptNoListLosesNothingOfAnotherName) {
   EXPECT_FALSE(fs::exists(path("curves/a.csv.kept")));
 }
 
+TEST_F(Folder, ThatIsToBeFilledGoesAgainWhereNothingWasWritten) {
+  fs::create_directory(path("own"));
+  { const FolderToFill unfilled(path("own/made/deep")); }
+  EXPECT_TRUE(fs::exists(path("own")));
+  EXPECT_FALSE(fs::exists(path("own/made")));
+  {
+    const FolderToFill filled(path("made/deep"));
+    write_whole(path("made/result"), "a result");
+  }
+  EXPECT_EQ(text("made/result"), "a result");
+  EXPECT_FALSE(fs::exists(path("made/deep")));
+}
+
 TEST_F(Folder, IsLockedAndUnlocked) {
   {
     const RunFolder run(folder_.path(), RunStart::anew);
