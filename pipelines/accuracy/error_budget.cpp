@@ -205,8 +205,8 @@ void add_certificate(CurveBudget& budget, const CurveResult& result,
            ErrorKind::estimated, 0.0);
 }
 
-/// By what is left of the equations of the mode nearest to the peak, relative: an eigenvalue errs by
-/// about as much, and so does a shape where no other eigenvalue is near.
+/// By what is left of the equations of the mode nearest to the peak, relative: an eigenvalue errs
+/// by about as much, and so does a shape where no other eigenvalue is near.
 void add_eigensolver(CurveBudget& budget, const ReducedModel& model, const RicherModels& richer,
                      const std::string& curve, const solver::ResponsePoint& peak) {
   const Eigen::Index n = std::min(richer.eigen_residual.size(), model.frequency.size());
