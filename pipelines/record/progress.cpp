@@ -48,7 +48,7 @@ std::string line_begin(const std::string& curve, const solver::ResponsePoint& po
 }
 
 std::string place_of(const std::string& curve, const solver::ResponsePoint& point) {
-  return fmt::format("{}  {:.4f} Hz  {:.4e} m", curve, hertz(point.frequency), point.amplitude);
+  return fmt::format("{}  {:.4g} Hz  {:.3g} m", curve, hertz(point.frequency), point.amplitude);
 }
 
 std::string describe(const std::string& curve, const solver::ResponsePoint& point) {

@@ -97,14 +97,15 @@ bool is_above(const solver::ResponsePoint& point, const solver::ResponseCurve& c
   });
 }
 
-/// The peak of a curve is the highest one that is marked; an end of the range may be higher.
+/// The peak of a curve is the highest one that is marked; an end of the range may be higher. Its
+/// error is not known yet, and few digits are.
 std::string largest_text(const solver::ResponseCurve& curve, const solver::ResponsePoint& peak) {
   const auto highest =
       std::ranges::max_element(curve.points, {}, &solver::ResponsePoint::amplitude);
   if (!(highest->amplitude > clearly * peak.amplitude)) {
-    return fmt::format("; largest {:.6g} m at {:.6g} Hz", peak.amplitude, to_hz * peak.frequency);
+    return fmt::format("; largest {:.3g} m at {:.4g} Hz", peak.amplitude, to_hz * peak.frequency);
   }
-  return fmt::format("; highest peak {:.6g} m at {:.6g} Hz, largest {:.6g} m at {:.6g} Hz",
+  return fmt::format("; highest peak {:.3g} m at {:.4g} Hz, largest {:.3g} m at {:.4g} Hz",
                      peak.amplitude, to_hz * peak.frequency, highest->amplitude,
                      to_hz * highest->frequency);
 }
@@ -170,7 +171,7 @@ std::vector<std::string> detached_text(const CurveResult& result) {
         std::ranges::max_element(branch.points, {}, &solver::ResponsePoint::amplitude);
     if (highest == branch.points.end()) continue;
     lines.push_back(fmt::format(
-        "curve {}: beside it {}; largest {:.6g} m at {:.6g} Hz{}{}", result.name,
+        "curve {}: beside it {}; largest {:.3g} m at {:.4g} Hz{}{}", result.name,
         branch.points.size() == 1 ? "another solution"
                                   : fmt::format("a branch of {} points", branch.points.size()),
         highest->amplitude, to_hz * highest->frequency,
@@ -245,7 +246,7 @@ std::string rival_text(const CurveResult& result, const CurveBudget& budget) {
   }
   if (rival == nullptr) return {};
   return fmt::format(
-      "curve {}: a second peak, {:.6g} m at {:.6g} Hz, is as high to {}: with what the settings "
+      "curve {}: a second peak, {:.3g} m at {:.4g} Hz, is as high to {}: with what the settings "
       "leave out it may be the highest, and the bar is that of the one at {:.6g} Hz",
       result.name, rival->amplitude, to_hz * rival->frequency,
       percent_text(1.0 - rival->amplitude / told->amplitude), to_hz * told->frequency);
