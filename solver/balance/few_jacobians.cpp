@@ -35,7 +35,7 @@ class Corrector {
   NewtonResult run(const BranchVector& start, const BranchFactors* nearby) {
     NewtonResult at = nearby != nullptr ? brought_near(start, *nearby) : evaluated(start);
     for (int i = 0; i < most_jacobians && at.residual <= far; ++i) {
-      if (at.residual <= tolerance_) return finished(std::move(at));
+      if (at.residual <= tolerance_) return solution(std::move(at));
       if (options_.is_stopped()) break;
       NewtonResult best = approached(at);
       if (best.residual <= tolerance_ && at.residual <= near) {
@@ -47,7 +47,7 @@ class Corrector {
       if (!(best.residual < at.residual)) break;  // a kink: for Newton's method
       at = evaluated(std::move(best.point));
     }
-    if (at.residual <= tolerance_) return finished(std::move(at));
+    if (at.residual <= tolerance_) return solution(std::move(at));
     if (options_.max_iterations == 0) {
       at.iterations = iterations_;
       at.evaluations = evaluations_;
@@ -60,6 +60,12 @@ class Corrector {
   }
 
  private:
+  /// With factors of its own Jacobian, which tangent, slope and stability ask for in turn.
+  [[nodiscard]] NewtonResult solution(NewtonResult at) const {
+    at.factors = std::make_shared<BranchFactors>(at.evaluation, constraint_, scaling_);
+    return finished(std::move(at));
+  }
+
   [[nodiscard]] NewtonResult finished(NewtonResult at) const {
     at.converged = true;
     at.iterations = iterations_;
