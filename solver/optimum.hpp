@@ -49,6 +49,8 @@ struct Optimum {
   long iterations = 0;
   long contact_evaluations = 0;
   double seconds = 0.0;
+  /// Of `best`, where its curve was traced with the harmonics of a corrected search; else nullptr.
+  std::shared_ptr<const ResponseCurve> best_curve;
   /// What few harmonics have found first; nullptr: it was searched with as few, or stopped before.
   std::shared_ptr<const Optimum> by_few;
 };

@@ -235,10 +235,16 @@ CurveBudget optimum_budget(const ReducedModel& model, const SceneDescription& sc
     return !interrupt_requested() && !cut_short();
   };
   const SceneDescription searched = with_harmonics_of(scene, optimum);
-  in_parallel(neighbours.size(), jobs, [&](std::size_t i) {
+  const auto curve_of = [&](std::size_t i) {
     const CurveRequest request{optimum_name, neighbours[i] * optimum.best.parameter};
+    if (i == middle && optimum.best_curve) {
+      return checked_curve(model, searched, request, *optimum.best_curve);
+    }
+    return trace_curve(model, searched, request, goes_on);
+  };
+  in_parallel(neighbours.size(), jobs, [&](std::size_t i) {
     if (interrupt_requested() || cut_short()) return;
-    const CurveResult curve = trace_curve(model, searched, request, goes_on);
+    const CurveResult curve = curve_of(i);
     budgets[i] = error_budget(model, searched, richer, curve);
     const solver::ResponsePoint* peak = highest_peak(curve.curve);
     if (peak != nullptr) amplitudes[i] = peak->amplitude;

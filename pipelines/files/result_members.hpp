@@ -65,8 +65,9 @@ auto members(Is<PeakOfParameter> auto& value) {
 }
 auto members(Is<Optimum> auto& value) {
   auto& [best, trace, found, flat, reason, objection, message, notes, warnings, orders, n_curves,
-         iterations, evaluations, seconds, by_few] = value;
-  static_cast<void>(by_few);  // for the bracket of the same run, which is kept itself
+         iterations, evaluations, seconds, best_curve, by_few] = value;
+  static_cast<void>(best_curve);  // for the errors of the same run, which are kept themselves
+  static_cast<void>(by_few);      // for its bracket, likewise
   return std::tie(best, trace, found, flat, reason, objection, message, notes, warnings, orders,
                   n_curves, iterations, evaluations, seconds);
 }

@@ -129,14 +129,19 @@ solver::ResponseCurve linear_curve(const ReducedModel& model, LimitName limit,
       limit == LimitName::free ? solver::LinearLimit::free : solver::LinearLimit::stuck, options);
 }
 
-/// Traces the curve of a scene; the harmonics it has are not checked with more.
-CurveResult traced(const ReducedModel& model, const SceneDescription& scene,
-                   const CurveRequest& request, const solver::PointObserver& observe,
-                   solver::ContinuationOptions options, const solver::ResponseCurve* near) {
+CurveResult nothing_yet(const ReducedModel& model, const CurveRequest& request) {
   CurveResult result;
   result.name = request.name;
   result.load = load_of(request, model);
   result.gap = gap_of(result.load, model);
+  return result;
+}
+
+/// Traces the curve of a scene; the harmonics it has are not checked with more.
+CurveResult traced(const ReducedModel& model, const SceneDescription& scene,
+                   const CurveRequest& request, const solver::PointObserver& observe,
+                   solver::ContinuationOptions options, const solver::ResponseCurve* near) {
+  CurveResult result = nothing_yet(model, request);
   if (const auto* limit = std::get_if<LimitName>(&result.load)) {
     result.curve = linear_curve(model, *limit, std::move(options));
     add_limit_shares(model, result);
@@ -225,6 +230,14 @@ CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene
                         const CurveRequest& request, const solver::PointObserver& observe,
                         const solver::ResponseCurve* near) {
   return traced_within(time_of_curve(scene), model, scene, request, observe, near);
+}
+
+CurveResult checked_curve(const ReducedModel& model, const SceneDescription& scene,
+                          const CurveRequest& request, solver::ResponseCurve curve) {
+  CurveResult result = nothing_yet(model, request);
+  result.curve = std::move(curve);
+  check_harmonics(model, scene, std::get<double>(result.load), result);
+  return result;
 }
 
 solver::ResponseCurve integrated_elsewhere(const ReducedModel& model, const SceneDescription& scene,

@@ -21,6 +21,10 @@ namespace microslip::pipelines {
                                       const solver::PointObserver& observe,
                                       const solver::ResponseCurve* near = nullptr);
 
+/// As trace_curve() of a curve that is traced already: its harmonics are checked with more.
+[[nodiscard]] CurveResult checked_curve(const ReducedModel& model, const SceneDescription& scene,
+                                        const CurveRequest& request, solver::ResponseCurve curve);
+
 /// Another model integrated in time over the range of a scene, begun with the motion of a point of
 /// the curve.
 /// @param point      at the first frequency of the range.

@@ -117,7 +117,7 @@ bool CorrectedPeaks::carry(double position, Value& value) const {
 /// amplitude of zero: nothing was solved.
 void CorrectedPeaks::trace(double position, Value& value) const {
   const Scene scene = family_(parameter(position));
-  const ResponseCurve curve = trace_response(scene, range_with_starts(), until_stopped(range_));
+  ResponseCurve curve = trace_response(scene, range_with_starts(), until_stopped(range_));
   value.work.iterations += curve.iterations;
   value.work.contact_evaluations += curve.contact_evaluations;
   ++value.n_curves;
@@ -137,6 +137,7 @@ void CorrectedPeaks::trace(double position, Value& value) const {
   value.highest.frequency = top.point.frequency;
   value.highest.place = top.place;
   value.highest.detached = top.detached;
+  if (!top.detached) value.curve = std::make_shared<const ResponseCurve>(std::move(curve));
   correct_highest(value);
   if (top.place != PeakPlace::peak) return;
   HarmonicBalance balance(scene, first_harmonics(scene, range_));

@@ -34,7 +34,8 @@ class CorrectedPeaks {
     FamilyPeaks all;                           ///< where they could be carried
     std::map<std::size_t, double> correction;  ///< log (A / a)
     PeakOfParameter highest;
-    std::optional<ResponsePoint> top;  ///< of the whole curve, where it was traced
+    std::optional<ResponsePoint> top;            ///< of the whole curve, where it was traced
+    std::shared_ptr<const ResponseCurve> curve;  ///< where `top` is its highest point
     int n_curves = 0;
     PeakWork work;
   };

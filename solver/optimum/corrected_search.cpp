@@ -251,6 +251,7 @@ class CorrectedPeakSearch {
   [[nodiscard]] Optimum found(double best, double believed) const {
     Optimum optimum = with_values();
     optimum.best = values().at(best).highest;
+    optimum.best_curve = values().at(best).curve;
     optimum.found = true;
     optimum.n_curves = peaks_.n_curves();
     optimum.message = "settled: " + valley(optimum.trace, optimum.best);

@@ -4,14 +4,17 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "pipelines/description/curve_request.hpp"
 #include "pipelines/effects/model_family.hpp"
 #include "pipelines/response/optimum_stage.hpp"
+#include "pipelines/response/response_stage.hpp"
 #include "pipelines/scene/scene_file.hpp"
 
 namespace microslip::pipelines::test_optimum_budget {
@@ -20,6 +23,7 @@ namespace {
 struct Found {
   solver::Optimum optimum;
   CurveBudget budget;
+  CurveBudget with_curve;  ///< the same where the search has traced the curve at the best preload
 };
 
 Found search(const std::string& harmonics) {
@@ -32,6 +36,11 @@ Found search(const std::string& harmonics) {
   Found found;
   found.optimum = OptimumSearch(model, scene, nullptr, 1).best();
   found.budget = optimum_budget(model, scene, {}, found.optimum, 1);
+  solver::Optimum known = found.optimum;
+  const CurveRequest best{optimum_name, known.best.parameter};
+  known.best_curve = std::make_shared<const solver::ResponseCurve>(
+      trace_curve(model, scene, best, [](const auto&) { return true; }).curve);
+  found.with_curve = optimum_budget(model, scene, {}, known, 1);
   return found;
 }
 
@@ -55,6 +64,17 @@ TEST(OptimumBudget, TellsHowFarMoreHarmonicsMoveTheBestPreload) {
   EXPECT_GT(told(few.budget, peak_amplitude_goal), lower);
   EXPECT_GT(few.budget.dissipated_energy, 0.0);
   EXPECT_GT(told(few.budget, dissipated_energy_goal), 0.01);
+}
+
+TEST(OptimumBudget, TakesTheCurveAtTheBestPreloadFromTheSearch) {
+  const Found found = search("1");
+  ASSERT_FALSE(found.budget.rows.empty());
+  ASSERT_EQ(found.with_curve.rows.size(), found.budget.rows.size());
+  for (std::size_t i = 0; i < found.budget.rows.size(); ++i) {
+    const ErrorRow& row = found.budget.rows[i];
+    EXPECT_EQ(found.with_curve.rows[i].source, row.source);
+    EXPECT_NEAR(found.with_curve.rows[i].effect, row.effect, 1e-6) << row.source << ' ' << row.goal;
+  }
 }
 
 TEST(OptimumBudget, HasNoRowsWhereADetachedPeakBegins) {
