@@ -90,6 +90,52 @@ bool is_worth_a_trace(const SceneDescription& scene, const RicherModel& richer) 
   return richer.source == "mesh" && scene.accuracy.tolerance > 0.0 && !is_single_frequency(scene);
 }
 
+/// The peak of a limit in another model, which may have left the range; where there is none but the
+/// range's end, the amplitude there.
+const solver::ResponsePoint* nearest_to(double place, solver::PointMark mark,
+                                        const solver::ResponseCurve& curve) {
+  const solver::ResponsePoint* nearest = nullptr;
+  for (const solver::ResponsePoint& point : curve.points) {
+    if (mark == solver::PointMark::peak && point.mark != mark) continue;
+    const double distance = std::abs(point.frequency - place);
+    if (nearest == nullptr || distance < std::abs(nearest->frequency - place)) nearest = &point;
+  }
+  return nearest;
+}
+
+SceneDescription with_wider_range(SceneDescription scene) {
+  constexpr double beyond = 0.1;
+  ResponseDescription& response = *scene.response;
+  const auto [low, high] = response.frequency_begin_hz < response.frequency_end_hz
+                               ? std::tie(response.frequency_begin_hz, response.frequency_end_hz)
+                               : std::tie(response.frequency_end_hz, response.frequency_begin_hz);
+  low *= 1.0 - beyond;
+  high *= 1.0 + beyond;
+  return scene;
+}
+
+/// The highest peak of a linear limit in another model.
+std::optional<PeakThere> limit_peak_there(const ReducedModel& own, const SceneDescription& scene,
+                                          const RicherModel& richer,
+                                          const solver::ResponsePoint& peak, LimitName limit) {
+  const bool is_peak = peak.mark == solver::PointMark::peak;
+  const solver::ResponseCurve curve =
+      limit_curve(richer.model, is_peak ? with_wider_range(scene) : scene, limit);
+  const double factor =
+      is_peak ? frequency_factor(own, richer.model, peak.frequency, richer.embedding) : 1.0;
+  const auto* there = nearest_to(factor * peak.frequency, peak.mark, curve);
+  if (there == nullptr) return std::nullopt;
+  return PeakThere{{there->amplitude, there->frequency}};
+}
+
+/// The limit that a curve is proved to be; empty: none.
+std::optional<LimitName> limit_of(const solver::ResponseCurve& curve) {
+  const contact::CycleReport& share = highest_peak(curve)->report;
+  if (curve.certificate.empty()) return std::nullopt;
+  if (share.stick_share == 1.0) return LimitName::stuck;
+  return share.separated_share == 1.0 ? std::optional(LimitName::free) : std::nullopt;
+}
+
 /// The highest peak of the curve in another model.
 std::optional<PeakThere> peak_there(const ReducedModel& own, const SceneDescription& scene,
                                     const RicherModel& richer, const solver::ResponseCurve& curve,
@@ -106,6 +152,7 @@ std::optional<PeakThere> peak_there(const ReducedModel& own, const SceneDescript
     return PeakThere{{peak->other_amplitude, peak->other_frequency, peak->other_dissipated_energy},
                      peak->is_solved ? ErrorKind::solved : ErrorKind::estimated};
   }
+  if (const auto limit = limit_of(curve)) return limit_peak_there(own, scene, richer, top, *limit);
   if (!is_worth_a_trace(scene, richer)) return std::nullopt;
   const auto traced = peak_about(refined, load, solver::with_harmonics_of(here, options, curve),
                                  factor * top.frequency);
@@ -225,53 +272,25 @@ bool concerns(const RicherModel& richer, LimitName limit) {
   return limit == LimitName::stuck || richer.source == "mesh" || richer.source == "basis";
 }
 
-/// The peak of a limit in another model, which may have left the range; where there is none but the
-/// range's end, the amplitude there.
-const solver::ResponsePoint* nearest_to(double place, solver::PointMark mark,
-                                        const solver::ResponseCurve& curve) {
-  const solver::ResponsePoint* nearest = nullptr;
-  for (const solver::ResponsePoint& point : curve.points) {
-    if (mark == solver::PointMark::peak && point.mark != mark) continue;
-    const double distance = std::abs(point.frequency - place);
-    if (nearest == nullptr || distance < std::abs(nearest->frequency - place)) nearest = &point;
-  }
-  return nearest;
-}
-
-SceneDescription with_wider_range(SceneDescription scene) {
-  constexpr double beyond = 0.1;
-  ResponseDescription& response = *scene.response;
-  const auto [low, high] = response.frequency_begin_hz < response.frequency_end_hz
-                               ? std::tie(response.frequency_begin_hz, response.frequency_end_hz)
-                               : std::tie(response.frequency_end_hz, response.frequency_begin_hz);
-  low *= 1.0 - beyond;
-  high *= 1.0 + beyond;
-  return scene;
-}
-
 /// Of a linear limit: its highest peak in every model.
 CurveBudget limit_budget(const ReducedModel& model, const SceneDescription& scene,
                          const RicherModels& richer, const CurveResult& result, LimitName limit) {
   CurveBudget budget;
+  budget.touches = limit == LimitName::stuck;
   const solver::ResponsePoint* peak = highest_peak(result.curve);
   // What elements do outweighs all else: without it nothing is told.
   const bool is_mesh_known =
       std::ranges::find(richer.models, "mesh", &RicherModel::source) != richer.models.end();
   if (peak == nullptr || !(peak->amplitude > 0.0) || !is_mesh_known) return budget;
-  const bool is_peak = peak->mark == solver::PointMark::peak;
-  const SceneDescription wider = is_peak ? with_wider_range(scene) : scene;
   for (const RicherModel& other : richer.models) {
     if (!concerns(other, limit)) continue;
     const auto begin = std::chrono::steady_clock::now();
-    const solver::ResponseCurve curve = limit_curve(other.model, wider, limit);
-    const double factor =
-        is_peak ? frequency_factor(model, other.model, peak->frequency, other.embedding) : 1.0;
-    const auto* there = nearest_to(factor * peak->frequency, peak->mark, curve);
-    if (there == nullptr) {
+    const auto there = limit_peak_there(model, scene, other, *peak, limit);
+    if (!there) {
       budget.unknown.push_back(other.source);
       continue;
     }
-    const GoalEffects change = changes(budget, *peak, {there->amplitude, there->frequency});
+    const GoalEffects change = changes(budget, *peak, there->goals);
     add_rows(budget, result.name, other.source,
              {other.share * change.amplitude, other.share * change.frequency}, ErrorKind::solved,
              seconds_since(begin));
@@ -290,11 +309,13 @@ std::string energy_text(const CurveBudget& budget, const std::string& curve) {
   return "dissipated energy ± " + percent_text(bar);
 }
 
-/// Of one source and goal, over all curves that know it.
+/// Of one source and goal, over all curves that know it. What the contact errs by is told by those
+/// that it has a part in.
 const ErrorRow* largest_row(const std::vector<CurveBudget>& budgets, const std::string& source,
                             const char* goal) {
   const ErrorRow* largest = nullptr;
   for (const CurveBudget& budget : budgets) {
+    if (!budget.touches && source != "mesh") continue;
     for (const ErrorRow& row : budget.rows) {
       const bool told = row.source == source && row.goal == goal && row.kind != ErrorKind::borrowed;
       if (told && (largest == nullptr || std::abs(row.effect) > std::abs(largest->effect))) {
@@ -380,6 +401,7 @@ CurveBudget error_budget(const ReducedModel& model, const SceneDescription& scen
     return budget;
   }
   budget.unknown = richer.unknown;
+  budget.touches = peak->report.separated_share < 1.0;
   add_energy(budget, *peak);
   const bool is_told = scene.settings.harmonics.chosen() || !result.curve.certificate.empty();
   add_harmonics(budget, result, *peak, is_told);

@@ -18,6 +18,7 @@ struct CurveBudget {
   std::vector<std::string> unknown;  ///< sources that could not be told: the bar leaves them out
   std::vector<ErrorRow> left_out{};  ///< effects of physics (left_out.hpp): no part of the bar
   std::vector<NoBound> no_bound{};   ///< of those that have no row there
+  bool touches = true;               ///< the contact has a part in the highest peak
   double dissipated_energy = 0.0;    ///< by friction in a period at the highest peak [J]
   /// Energy that a period takes there over what friction takes of it: a relative change of the
   /// amplitude changes the dissipated energy by no more than so much of it, as work of the
@@ -43,7 +44,8 @@ struct CurveBudget {
 [[nodiscard]] CurveBudget with_harmonics_of(CurveBudget before, const CurveBudget& now);
 
 /// Sources that one curve could not be followed with, or had no time for, and others could: the
-/// largest effect of those stands in for its own.
+/// largest effect of those stands in for its own. Curves without contact stand in for the mesh
+/// alone.
 void borrow_unknown(std::vector<CurveBudget>& budgets);
 
 /// One line: the bar and its largest parts. Empty without rows.

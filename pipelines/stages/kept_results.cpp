@@ -23,8 +23,8 @@
 namespace microslip::pipelines {
 
 auto members(Is<CurveBudget> auto& value) {
-  auto& [rows, unknown, left_out, no_bound, dissipated_energy, energy_ratio] = value;
-  return std::tie(rows, unknown, left_out, no_bound, dissipated_energy, energy_ratio);
+  auto& [rows, unknown, left_out, no_bound, touches, dissipated_energy, energy_ratio] = value;
+  return std::tie(rows, unknown, left_out, no_bound, touches, dissipated_energy, energy_ratio);
 }
 auto members(Is<PictureFile> auto& value) {
   auto& [name, bytes] = value;

@@ -46,6 +46,20 @@ TEST(ErrorBudget, ACurveThatCannotBeFollowedHasTheLargestErrorOfTheOthers) {
   EXPECT_TRUE(budgets[3].rows.empty());
 }
 
+// A gap that never closes: a richer basis of the contact changes nothing, which tells nothing of
+// curves that stick.
+TEST(ErrorBudget, CurvesWithoutContactStandInForTheMeshAlone) {
+  CurveBudget open = budget("open", "basis", 1e-11, 1e-11);
+  open.touches = false;
+  std::vector<CurveBudget> budgets{open, lacking("stuck", "basis")};
+  borrow_unknown(budgets);
+  EXPECT_EQ(budgets[1].unknown, std::vector<std::string>{"basis"});
+  budgets = {budget("open", "mesh", 0.01, 0.001), lacking("stuck", "mesh")};
+  budgets[0].touches = false;
+  borrow_unknown(budgets);
+  EXPECT_TRUE(budgets[1].unknown.empty());
+}
+
 TEST(ErrorBudget, WhatNoCurveKnowsStaysUnknown) {
   std::vector<CurveBudget> budgets{lacking("a", "mesh"), lacking("b", "mesh"),
                                    lacking("c", "harmonics"), budget("d", "harmonics", 0.1, 0.0)};
