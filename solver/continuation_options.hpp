@@ -39,6 +39,8 @@ struct ContinuationOptions {
   /// Whether a step to a part of the branch beside the one walked is refused (branch_walker.hpp).
   /// False: to step over what has led the walk back.
   bool refuse_swerves = true;
+  /// Whether a walk that was led back goes on beyond the place where that happened.
+  bool leave_loops = false;
   /// Solutions whose proof fails are no rows (curve/certificate.hpp). False: of curves that only a
   /// search reads.
   bool require_proof = true;

@@ -73,6 +73,26 @@ ResponseCurve trace_backwards(const Scene& scene, ContinuationOptions options,
   return curve;
 }
 
+/// Two walks from the ends of the range that stop at the same place, or before they meet.
+bool are_two_sides(const ContinuationOptions& options, const ResponseCurve& from_begin,
+                   const ResponseCurve& from_end) {
+  constexpr double overlap = 1e-3;  // of the range: a hairpin that neither gets out of
+  const auto has_stopped = [](const ResponseCurve& curve) {
+    return !curve.complete && curve.diagnosis != Diagnosis::budget && !curve.points.empty();
+  };
+  if (!has_stopped(from_begin) || !has_stopped(from_end)) return false;
+  if (from_begin.points.front().q.n_harmonics() != from_end.points.front().q.n_harmonics()) {
+    return false;
+  }
+  const auto progress = [&](const ResponsePoint& point) {
+    return (point.frequency - options.frequency_begin) /
+           (options.frequency_end - options.frequency_begin);
+  };
+  const double last = progress(*std::ranges::max_element(from_begin.points, {}, progress));
+  const double first = progress(*std::ranges::min_element(from_end.points, {}, progress));
+  return last <= first + overlap;
+}
+
 /// What another walk of the same curve has cost.
 void add_work(ResponseCurve& curve, const ResponseCurve& other) {
   curve.iterations += other.iterations;
@@ -82,20 +102,24 @@ void add_work(ResponseCurve& curve, const ResponseCurve& other) {
 }
 
 /// A step that is refused as it swerves may lead into a tip, far smaller than itself, from which a
-/// walk comes back: then such steps are taken.
+/// walk comes back: then such steps are taken. What leads back all the same is left.
 ResponseCurve traced_past_loops(const Scene& scene, ContinuationOptions options,
                                 const PointObserver& observe) {
   ResponseCurve curve = CurveTracer(scene, options, observe).run();
   if (curve.diagnosis != Diagnosis::loop) return curve;
   options.refuse_swerves = false;
   ResponseCurve past = CurveTracer(scene, options, observe).run();
-  if (!past.complete) {
-    add_work(curve, past);
-    return curve;
+  if (past.complete) {
+    past.log.push_back({curve.points.back().frequency, Remedy::past_loop});
+    add_work(past, curve);
+    return past;
   }
-  past.log.push_back({curve.points.back().frequency, Remedy::past_loop});
-  add_work(past, curve);
-  return past;
+  add_work(curve, past);
+  options.refuse_swerves = true;
+  options.leave_loops = true;
+  ResponseCurve beyond = CurveTracer(scene, options, observe).run();
+  add_work(beyond.complete ? beyond : curve, beyond.complete ? curve : beyond);
+  return beyond.complete ? beyond : curve;
 }
 
 Eigen::MatrixXd limit_stiffness(const Scene& scene, LinearLimit limit) {
@@ -204,9 +228,7 @@ ResponseCurve trace_response(const Scene& scene, const ContinuationOptions& opti
       certified ? std::move(*certified) : traced_past_loops(scene, options, observe);
   if (!curve.complete && curve.certificate.empty() && curve.diagnosis != Diagnosis::interrupted) {
     ResponseCurve other = trace_backwards(scene, options, observe);
-    const bool two_sides =
-        curve.diagnosis == Diagnosis::unbounded && other.diagnosis == Diagnosis::unbounded &&
-        curve.points.front().q.n_harmonics() == other.points.front().q.n_harmonics();
+    const bool two_sides = are_two_sides(options, curve, other);
     const bool is_better =
         !two_sides && (other.complete || other.points.size() > curve.points.size());
     add_work(is_better ? other : curve, is_better ? curve : other);

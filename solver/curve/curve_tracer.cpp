@@ -127,7 +127,7 @@ bool CurveTracer::closed(const BranchWalker& walker, int n_steps) const {
 
 /// A branch passes each of its folds once. Who meets one again goes back along the branch, or round
 /// in circles: a step has led to another part of it, or to a branch that is detached.
-bool CurveTracer::came_back(std::size_t n_before) const {
+std::optional<std::size_t> CurveTracer::came_back(std::size_t n_before) const {
   constexpr double same_frequency = 1e-11;  // folds as near to each other as 1e-8 were seen
   constexpr double same_motion = 1e-6;      // the square root is what a fold leaves open
   const auto same = [&](const ResponsePoint& a, const ResponsePoint& b) {
@@ -138,10 +138,10 @@ bool CurveTracer::came_back(std::size_t n_before) const {
   for (std::size_t i = n_before; i < points.size(); ++i) {
     if (points[i].mark != PointMark::fold) continue;
     for (std::size_t j = 0; j < n_before; ++j) {
-      if (points[j].mark == PointMark::fold && same(points[i], points[j])) return true;
+      if (points[j].mark == PointMark::fold && same(points[i], points[j])) return j;
     }
   }
-  return false;
+  return std::nullopt;
 }
 
 /// Friction takes a work that grows with the amplitude, as that of the excitation does: where it is
@@ -180,7 +180,8 @@ bool CurveTracer::walk(BranchWalker& walker) {
       stop(Diagnosis::interrupted, at_hertz("stopped", frequency));
       return false;
     }
-    if (came_back(n_before)) {
+    loop_ = came_back(n_before);
+    if (loop_) {
       stop(Diagnosis::loop, at_hertz("the branch comes back to where it was", frequency));
       return false;
     }
@@ -255,6 +256,53 @@ std::optional<CurveTracer::Restart> CurveTracer::restart_against_the_range(
     if (!corrected.converged || !on_the_branch(from, corrected.point)) continue;
     curve_.log.push_back({from.solution.point.parameter, Remedy::fixed_frequency});
     return Restart{std::move(corrected), -forward()};
+  }
+  return std::nullopt;
+}
+
+/// Along the chord between the points before one of the curve that are at least as far from
+/// `frequency` as what lies `way` beyond it, and twice as far.
+Eigen::VectorXd CurveTracer::extrapolated(std::ptrdiff_t before, double frequency,
+                                          double way) const {
+  const auto last_at = [&](double distance) {
+    auto i = static_cast<std::size_t>(before);
+    while (i > 0 && std::abs(curve_.points[i].frequency - frequency) < distance) --i;
+    return i;
+  };
+  const ResponsePoint& near = curve_.points[last_at(std::abs(way))];
+  const ResponsePoint& far = curve_.points[last_at(2.0 * std::abs(way))];
+  const Eigen::VectorXd x = balance_->unknowns(near.q);
+  const double step = near.frequency - far.frequency;
+  if (step == 0.0) return x;
+  return x + (frequency + way - near.frequency) / step * (x - balance_->unknowns(far.q));
+}
+
+/// Hairpins as small as the errors of forces lead a walk back the way it has come. What was walked
+/// twice is no part of the curve; farther on than it has led, the branch that it belongs to goes on
+/// with all but the same motion.
+std::optional<CurveTracer::Restart> CurveTracer::restart_beyond_loop() {
+  if (!loop_) return std::nullopt;
+  auto& points = curve_.points;
+  const auto fold = points.begin() + static_cast<std::ptrdiff_t>(*loop_);
+  const double frequency =
+      std::max_element(fold, points.end(), [this](const auto& a, const auto& b) {
+        return progress(a.frequency) < progress(b.frequency);
+      })->frequency;
+  const Eigen::VectorXd x = balance_->unknowns(fold->q);
+  for (const double ahead : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2}) {
+    const double way = ahead * forward() * range_;
+    const double there = frequency + way;
+    if (progress(there) >= 1.0) break;
+    // At the fold itself the Jacobian is singular.
+    NewtonResult corrected =
+        corrected_at(extrapolated(fold - points.begin(), frequency, way), there);
+    const bool is_near = (corrected.point.x - x).norm() <= same_branch * x.norm();
+    if (!corrected.converged || !is_near) continue;
+    curve_.log.push_back({fold->frequency, Remedy::fixed_frequency});
+    points.erase(fold + 1, points.end());
+    curve_.diagnosis = Diagnosis::none;
+    curve_.message.clear();
+    return Restart{std::move(corrected), forward()};
   }
   return std::nullopt;
 }
@@ -343,7 +391,11 @@ ResponseCurve CurveTracer::run() {
       return finished();
     }
     BranchWalker walker = walker_from(std::move(next->at), next->way);
-    if (!walk(walker)) return finished();
+    if (!walk(walker)) {
+      next = options_.leave_loops ? restart_beyond_loop() : std::nullopt;
+      if (!next) return finished();
+      continue;
+    }
     const double last = walker.now().solution.point.parameter;
     const Diagnosis stall = diagnosis_of(walker.stall());
     next = restart(walker);

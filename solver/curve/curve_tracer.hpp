@@ -71,6 +71,9 @@ class CurveTracer {
   /// A solution a little way beyond a point at which the walker stalled; empty: none was found.
   [[nodiscard]] std::optional<Restart> restart(const BranchWalker& stalled);
   [[nodiscard]] std::optional<Restart> restart_against_the_range(const BranchWalker& stalled);
+  [[nodiscard]] std::optional<Restart> restart_beyond_loop();
+  [[nodiscard]] Eigen::VectorXd extrapolated(std::ptrdiff_t before, double frequency,
+                                             double way) const;
   [[nodiscard]] NewtonResult corrected_at(const Eigen::VectorXd& guess, double frequency);
   void take_stock(const BranchWalker& walker);
   void use(const HarmonicSet& set);
@@ -79,7 +82,8 @@ class CurveTracer {
   [[nodiscard]] bool endless() const;
   [[nodiscard]] bool closed(const BranchWalker& walker, int n_steps) const;
   /// @param n_before  points of the curve that were there before the last step.
-  [[nodiscard]] bool came_back(std::size_t n_before) const;
+  /// @return  the fold that was met again, of the points of the curve; empty: none was.
+  [[nodiscard]] std::optional<std::size_t> came_back(std::size_t n_before) const;
   void note_unsolved(double frequency, PointMark mark);
   /// Peaks and folds up to a share of the last step. False: as for add().
   [[nodiscard]] bool add_specials(BranchWalker& walker, double share_of_segment);
@@ -108,9 +112,10 @@ class CurveTracer {
   ResponseCurve curve_;
   double range_;
   StabilityReport last_stability_;
-  Eigen::VectorXd last_x_;      ///< of last_stability_
-  std::optional<Entry> entry_;  ///< where a jump entered the branch walked now
-  bool is_linear_ = false;      ///< solved by run_linear()
+  Eigen::VectorXd last_x_;           ///< of last_stability_
+  std::optional<Entry> entry_;       ///< where a jump entered the branch walked now
+  std::optional<std::size_t> loop_;  ///< the fold that a walk came back to
+  bool is_linear_ = false;           ///< solved by run_linear()
   /// Solutions that are no rows.
   struct LeftOut {
     int rows = 0;

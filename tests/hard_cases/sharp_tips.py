@@ -14,6 +14,7 @@ point in a bend), 29.163 (hyperbolic law: a stall on the way against the range; 
 that parts: a step from before a kink to the part beyond it, which comes back), 113.225 (exponential law: four events at once),
 127.215 (friction in a plane: a point that sticks with a load of the mean begins to slip, two folds and one on the part walked before),
 501.30 (hyperbolic law: a step over three pairs of folds to a part of the branch beside the one it came by)
+a scene of two points that slide in a plane, whose branch turns in a hairpin of 3e-6 Hz from which walks come back,
 and share/scenes/block_rough.toml at 80 N (an S of 1e-7 Hz, into which short steps lead and long ones do not).
 Right: complete, no fold is passed twice, from end to end they are even in number, and a part of the range has none more.
 
@@ -30,6 +31,54 @@ from program_run import without_plots  # found by random_runs
 
 
 BLOCK = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "share", "scenes", "block_rough.toml")
+
+
+HAIRPIN = """
+[model]
+kind = "modal"
+[modal]
+frequency = [20.0, 26.0, 47.0]
+damping_ratio = [0.01, 0.015, 0.01]
+force_sine = [1.0, 0.3, 0.2]
+force_cosine = [0.0, 0.8, 0.1]
+force_static = [0.5, 0, 0]
+output = [0.9, 0.35, 0.2]
+[[modal.points]]
+weight = 1
+tangential_stiffness = 2e4
+normal_stiffness = 1e4
+friction_coefficient = 0.3
+preload = 8
+phi_u_1 = 0.8
+phi_u_2 = -0.5
+phi_u_3 = 0.3
+phi_v_1 = 0.1
+phi_v_2 = 0.2
+phi_v_3 = 0.5
+phi_w_1 = 0.3
+phi_w_2 = 0.6
+phi_w_3 = 0.1
+[[modal.points]]
+weight = 1
+tangential_stiffness = 1e4
+normal_stiffness = 1e4
+friction_coefficient = 0.5
+preload = 2
+phi_u_1 = 0.5
+phi_u_2 = 0.5
+phi_u_3 = -0.3
+phi_v_1 = 0.1
+phi_v_2 = -0.2
+phi_v_3 = 0.5
+phi_w_1 = -0.3
+phi_w_2 = 0.4
+phi_w_3 = 0.1
+[response]
+frequency = ["14 Hz", "40 Hz"]
+harmonics = 1
+[accuracy]
+tolerance = "off"
+"""
 
 
 def solved(program, folder, scene, *settings):
@@ -81,6 +130,16 @@ def main(program, folder):
     assert len(part["folds_Hz"]) == 6, part["folds_Hz"]
     lacks = [one for one in part["folds_Hz"] if all(abs(one - other) > 1e-9 * one for other in curve["folds_Hz"])]
     assert not lacks, lacks
+
+    path = os.path.join(folder, "hairpin.toml")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(HAIRPIN)
+    code, curve = run_of(program, path, os.path.join(folder, "hairpin"), 'accuracy.error_budget="off"')
+    print(f"two points in a plane: {curve['points']} points, folds at {curve['folds_Hz']}, {curve['diagnosis'] or 'complete'}")
+    assert code == 0 and curve["complete"], curve["message"]
+    beyond = [peak for peak in curve["peaks"] if 32.0 < peak["frequency_Hz"] < 34.0]
+    assert beyond, curve["peaks"]
+    assert "fixed-frequency" in {step["remedy"] for step in curve["remedies"]}, curve["remedies"]
 
     code, curve = run_of(program, BLOCK, os.path.join(folder, "block"), "response.preload=[80]", "response.maps=[]",
                          'accuracy.error_budget="off"', seconds=200)
