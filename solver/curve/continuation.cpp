@@ -235,6 +235,9 @@ ResponseCurve trace_response(const Scene& scene, const ContinuationOptions& opti
     if (two_sides) {
       curve.points.insert(curve.points.end(), other.points.begin(), other.points.end());
       curve.log.insert(curve.log.end(), other.log.begin(), other.log.end());
+      if (curve.diagnosis != Diagnosis::unbounded) {  // one resonance, met from both sides
+        curve.message += "; from the end of the range: " + other.message;
+      }
     } else if (is_better) {
       other.log.insert(other.log.begin(), curve.log.begin(), curve.log.end());
       other.log.push_back({options.frequency_end, Remedy::other_end});
