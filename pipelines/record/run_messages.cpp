@@ -246,7 +246,7 @@ std::string rival_text(const CurveResult& result, const CurveBudget& budget) {
   }
   if (rival == nullptr) return {};
   return fmt::format(
-      "curve {}: a second peak, {:.3g} m at {:.4g} Hz, is as high to {}: with what the settings "
+      "curve {}: a second peak, {:.6g} m at {:.6g} Hz, is as high to {}: with what the settings "
       "leave out it may be the highest, and the bar is that of the one at {:.6g} Hz",
       result.name, rival->amplitude, to_hz * rival->frequency,
       percent_text(1.0 - rival->amplitude / told->amplitude), to_hz * told->frequency);
