@@ -22,6 +22,8 @@ namespace microslip::pipelines {
                                       const solver::ResponseCurve* near = nullptr);
 
 /// As trace_curve() of a curve that is traced already: its harmonics are checked with more.
+/// @param request  of a load, no limit.
+/// @param curve    of the model under that load, with the harmonics of the scene.
 [[nodiscard]] CurveResult checked_curve(const ReducedModel& model, const SceneDescription& scene,
                                         const CurveRequest& request, solver::ResponseCurve curve);
 

@@ -13,7 +13,7 @@ From: random scenes, 53.54 (five points with gaps, friction in a plane), 83.15 (
 point in a bend), 29.163 (hyperbolic law: a stall on the way against the range; with 5 % damping two events at once), 113.83 (a chain
 that parts: a step from before a kink to the part beyond it, which comes back), 113.225 (exponential law: four events at once),
 127.215 (friction in a plane: a point that sticks with a load of the mean begins to slip, two folds and one on the part walked before),
-501.30 (hyperbolic law: a step over three pairs of folds to a part of the branch beside the one it came by)
+501.30 (hyperbolic law: a step over three pairs of folds to a part of the branch beside the one it came by),
 a scene of two points that slide in a plane, whose branch turns in a hairpin of 3e-6 Hz from which walks come back,
 and share/scenes/block_rough.toml at 80 N (an S of 1e-7 Hz, into which short steps lead and long ones do not).
 Right: complete, no fold is passed twice, from end to end they are even in number, and a part of the range has none more.
