@@ -9,8 +9,11 @@
 /// amplitudes at one frequency do. Source: theory section 24.
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <vector>
 
+#include "solver/balance/harmonic_set.hpp"
 #include "solver/continuation_options.hpp"
 #include "solver/response_curve.hpp"
 #include "solver/scene.hpp"
@@ -26,6 +29,9 @@ struct PointShift {
 /// @param point  solved without them; its harmonics are taken.
 /// @return empty: the branch has no direction there, or the output does not move.
 [[nodiscard]] std::optional<PointShift> point_shift(const Scene& scene, const ResponsePoint& point);
+/// @param set  harmonics of the other model, those of the point among them.
+[[nodiscard]] std::optional<PointShift> point_shift(const Scene& scene, const HarmonicSet& set,
+                                                    const ResponsePoint& point);
 
 /// The same at the frequency of the point, [∂R/∂x] δ = −R: the change of its amplitude.
 /// @param range  of the curve with the other forces: which harmonics are unknowns then.
@@ -33,5 +39,18 @@ struct PointShift {
 [[nodiscard]] std::optional<double> amplitude_shift(const Scene& scene,
                                                     const ContinuationOptions& range,
                                                     const ResponsePoint& point);
+
+/// What harmonics that a curve lacks move it by, all along: away from its highest peak, which they
+/// are chosen for or checked at, others may count. One step across the branch in the equations that
+/// have them, at the peaks and folds, at every eighth point (every sixteenth of large scenes), and
+/// between two of these that differ; elsewhere linear from one to the next.
+/// @param scene    with a contact that takes `highest` harmonics.
+/// @param curve    solved by harmonic balance.
+/// @param highest  harmonic; of those beyond the curve's own the next few are taken.
+/// @param stop     asked between points; true ends with what there is.
+/// @return sizes, one for each point; empty of a curve that is proved linear, and where nothing
+///         could be told.
+[[nodiscard]] std::vector<PointShift> shifts_along(const Scene& scene, const ResponseCurve& curve,
+                                                   int highest, const std::function<bool()>& stop);
 
 }  // namespace microslip::solver

@@ -335,6 +335,7 @@ bool is_unsettled(const solver::ResponseCurve& curve) {
 }
 
 CurveBudget with_harmonics_of(CurveBudget before, const CurveBudget& now) {
+  before.along = now.along;
   constexpr const char* harmonics = "harmonics";
   const auto are_told = [](const ErrorRow& row) { return row.source == harmonics; };
   std::erase_if(before.rows, are_told);
@@ -417,6 +418,19 @@ CurveBudget error_budget(const ReducedModel& model, const SceneDescription& scen
   add_eigensolver(budget, model, richer, result.name, *peak);
   add_certificate(budget, result, *peak);
   return budget;
+}
+
+std::vector<solver::PointShift> harmonics_along(ReducedModel model, const SceneDescription& scene,
+                                                const CurveResult& result) {
+  const auto* load = std::get_if<double>(&result.load);
+  if (load == nullptr || result.integrated) return {};
+  const HarmonicSettings& harmonics = scene.settings.harmonics;
+  const int highest = harmonics.chosen() ? continuation_options(scene, model).n_harmonics
+                                         : harmonics.highest + harmonics_of_a_check;
+  model.effects.n_harmonics = std::max(model.effects.n_harmonics, highest);
+  model = model_of(std::move(model), result.curve);
+  return solver::shifts_along(solver_scene(model, *load), result.curve, highest,
+                              [] { return cut_short(); });
 }
 
 std::string budget_text(const CurveBudget& budget) {

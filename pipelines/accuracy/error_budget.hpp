@@ -10,6 +10,7 @@
 #include "pipelines/accuracy/richer_models.hpp"
 #include "pipelines/response/error_row.hpp"
 #include "pipelines/response/run_results.hpp"
+#include "solver/point_shift.hpp"
 
 namespace microslip::pipelines {
 
@@ -25,6 +26,8 @@ struct CurveBudget {
   /// excitation grows with the amplitude and that of damping with its square. Empty: friction
   /// dissipates nothing, and the goal has no rows.
   std::optional<double> energy_ratio{};
+  /// Of the harmonics left out, all along the curve (harmonics_along()); empty: not told.
+  std::vector<solver::PointShift> along{};
   /// Whether the rows bound the error: not where more harmonics give another curve,
   /// which outweighs all others.
   [[nodiscard]] bool has_bar() const;
@@ -37,6 +40,12 @@ struct CurveBudget {
 
 /// The choice of its harmonics was cut short, or did not end.
 [[nodiscard]] bool is_unsettled(const solver::ResponseCurve& curve);
+
+/// What harmonics beyond its own move a curve by, all along (solver/point_shift.hpp).
+/// @return sizes, one for each point; empty of a linear limit, and where nothing could be told.
+[[nodiscard]] std::vector<solver::PointShift> harmonics_along(ReducedModel model,
+                                                              const SceneDescription& scene,
+                                                              const CurveResult& result);
 
 /// Errors of a curve that got other harmonics alone, where there is no time to tell the others
 /// again: those of the curve before, but for the harmonics.

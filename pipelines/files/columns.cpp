@@ -141,11 +141,11 @@ constexpr std::array patch_table{
 
 constexpr std::array trust_table{
     Column<TrustedAmplitude>{
-        "amplitude_low_m", "m", "`amplitude_m` less the error of the curve's highest peak",
-        [](const auto& a) { return format_number(std::max(0.0, a.amplitude * (1.0 - a.bar))); }},
-    Column<TrustedAmplitude>{
-        "amplitude_high_m", "m", "the same added",
-        [](const auto& a) { return format_number(a.amplitude * (1.0 + a.bar)); }},
+        "amplitude_low_m", "m",
+        "the least amplitude at this frequency by the errors that the run tells",
+        [](const auto& a) { return format_number(a.low); }},
+    Column<TrustedAmplitude>{"amplitude_high_m", "m", "the largest",
+                             [](const auto& a) { return format_number(a.high); }},
 };
 
 constexpr std::array ladder_table{

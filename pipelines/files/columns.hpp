@@ -43,8 +43,8 @@ struct Column {
 
 /// Further columns of curves/NAME.csv where the error of the curve is told.
 struct TrustedAmplitude {
-  double amplitude = 0.0;  ///< [m]
-  double bar = 0.0;        ///< relative half width
+  double low = 0.0;   ///< [m]
+  double high = 0.0;  ///< [m]
 };
 [[nodiscard]] std::span<const Column<TrustedAmplitude>> trust_columns();
 

@@ -7,6 +7,7 @@
 #include "pipelines/response/error_row.hpp"
 #include "pipelines/response/run_results.hpp"
 #include "pipelines/system/byte_archive.hpp"
+#include "solver/point_shift.hpp"
 
 // Structured bindings name every member: one that is added and not kept does not compile.
 namespace microslip {
@@ -55,6 +56,10 @@ auto members(Is<ResponseCurve> auto& value) {
   return std::tie(points, complete, diagnosis, message, certificate, log, detached, n_starts,
                   iterations, evaluations, readings, cuts, seconds, settled_peak);
 }
+auto members(Is<PointShift> auto& value) {
+  auto& [frequency, amplitude] = value;
+  return std::tie(frequency, amplitude);
+}
 auto members(Is<RicherPeak> auto& value) {
   auto& [frequency, amplitude, change, highest, seconds, energy] = value;
   return std::tie(frequency, amplitude, change, highest, seconds, energy);
@@ -79,9 +84,9 @@ auto members(Is<PatchShares> auto& value) {
   return std::tie(patch, reports);
 }
 auto members(Is<CurveResult> auto& value) {
-  auto& [name, load, curve, maps, patch_shares, gap, integrated, richer, lacks_time, bar] = value;
+  auto& [name, load, curve, maps, patch_shares, gap, integrated, richer, lacks_time, band] = value;
   static_cast<void>(maps);  // drawn in a stage of their own, after the curves
-  static_cast<void>(bar);   // told in a stage of its own as well
+  static_cast<void>(band);  // told in a stage of its own as well
   return std::tie(name, load, curve, patch_shares, gap, integrated, richer, lacks_time);
 }
 auto members(Is<OptimumOfFactor> auto& value) {

@@ -25,9 +25,9 @@ std::optional<double> entry(const Eigen::VectorXd& column, Eigen::Index row) {
 }  // namespace
 
 std::string curve_table(const solver::ResponseCurve& curve, const std::vector<PatchShares>& patches,
-                        std::optional<double> bar) {
+                        const std::optional<AmplitudeBand>& band) {
   std::string table = header_of(curve_columns());
-  if (bar) table.append(",").append(header_of(trust_columns()));
+  if (band) table.append(",").append(header_of(trust_columns()));
   for (const PatchShares& patch : patches) {
     for (const auto& column : patch_columns()) {
       table += fmt::format(",{}.{}", patch.patch, column.name);
@@ -36,7 +36,9 @@ std::string curve_table(const solver::ResponseCurve& curve, const std::vector<Pa
   table += "\n";
   for (std::size_t i = 0; i < curve.points.size(); ++i) {
     table += row_of(curve_columns(), curve.points[i]);
-    if (bar) table.append(",").append(row_of(trust_columns(), {curve.points[i].amplitude, *bar}));
+    if (band) {
+      table.append(",").append(row_of(trust_columns(), {band->low.at(i), band->high.at(i)}));
+    }
     for (const PatchShares& patch : patches) {
       table.append(",").append(row_of(patch_columns(), patch.reports[i]));
     }
@@ -67,7 +69,7 @@ void write_curve(const std::filesystem::path& folder, const CurveResult& result,
   const std::filesystem::path curves = folder / "curves";
   make_folder(curves);
   write_whole(curves / (result.name + ".csv"),
-              curve_table(result.curve, result.patch_shares, result.bar));
+              curve_table(result.curve, result.patch_shares, result.band));
   write_whole(curves / (result.name + ".states.csv"), states_table(result.curve, n_modes));
   int number = 0;
   for (const solver::DetachedBranch& branch : result.curve.detached) {

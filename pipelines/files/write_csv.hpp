@@ -15,11 +15,10 @@ namespace microslip::pipelines {
 
 /// The text of curves/NAME.csv: one row per solution point, in branch order.
 /// @param patches  shares of each patch, where there are several.
-/// @param bar      of the amplitudes, relative: `amplitude_low_m` and `amplitude_high_m` join the
-///                 columns.
+/// @param band     `amplitude_low_m` and `amplitude_high_m` join the columns.
 [[nodiscard]] std::string curve_table(const solver::ResponseCurve& curve,
                                       const std::vector<PatchShares>& patches = {},
-                                      std::optional<double> bar = {});
+                                      const std::optional<AmplitudeBand>& band = {});
 
 /// The text of curves/NAME.states.csv: `frequency_Hz,q_mean_1…,q_sin1_1…,q_cos1_1…` [Hz, m√kg].
 /// @param n_modes  width of the header, for a curve without points.

@@ -565,7 +565,7 @@ void RunRecord::keep_budget(const CurveBudget& budget, BesideBar left_out,
     curve.left_out = std::move(left_out);
     break;
   }
-  if (result.bar) write_curve(staged_, result, model.frequency.size());
+  if (result.band) write_curve(staged_, result, model.frequency.size());
 }
 
 void RunRecord::keep_bracket(OptimumBracket bracket) {

@@ -36,6 +36,12 @@ struct PatchShares {
   std::vector<contact::CycleReport> reports;  ///< as many as the curve has points
 };
 
+/// Between which amplitudes a curve lies at the frequency of each of its points [m].
+struct AmplitudeBand {
+  std::vector<double> low;
+  std::vector<double> high;
+};
+
 struct CurveResult {
   std::string name;                      ///< stem of the CSV
   std::variant<double, LimitName> load;  ///< preload [N] (modal scenes: the factor), or a limit
@@ -45,8 +51,8 @@ struct CurveResult {
   std::optional<double> gap{};              ///< width of the uniform gap that the load is [m]
   bool integrated = false;  ///< in time: to the tolerance of integration, not to rounding
   std::optional<solver::RicherPeak> richer{};  ///< the peak with more harmonics than were given
-  bool lacks_time = false;      ///< solved with fewer harmonics than were to be had with more time
-  std::optional<double> bar{};  ///< of the peak's amplitude, relative half width; none: not told
+  bool lacks_time = false;  ///< solved with fewer harmonics than were to be had with more time
+  std::optional<AmplitudeBand> band{};  ///< none: its error is not told
 };
 
 /// The best value when one uncertain number of the contact is multiplied.

@@ -18,6 +18,7 @@
 
 #include "contact/contact_force.hpp"
 #include "pipelines/accuracy/along_curve.hpp"
+#include "pipelines/accuracy/amplitude_band.hpp"
 #include "pipelines/accuracy/beside_peaks.hpp"
 #include "pipelines/accuracy/error_budget.hpp"
 #include "pipelines/accuracy/left_out.hpp"
@@ -253,6 +254,7 @@ std::vector<CurveBudget> budgets_of(const ReducedModel& model, const SceneDescri
     budgets[i] = error_budget(model, scene, richer, curves[i]);
     budgets[i].no_bound = others.no_bound;
     if (cut_short()) return;
+    if (budgets[i].has_bar()) budgets[i].along = harmonics_along(model, scene, curves[i]);
     budgets[i].left_out = rows_left_out(model, scene, others.models, curves[i]);
     std::vector<ErrorRow>& rows = budgets[i].left_out;
     const std::vector<IndicatorOfCurve> along = indicators_along(model, scene, with, curves[i]);
@@ -267,7 +269,7 @@ std::vector<CurveBudget> budgets_of(const ReducedModel& model, const SceneDescri
   borrow_unknown(budgets);
   for (std::size_t i = 0; i < curves.size(); ++i) {
     if (budgets[i].has_bar()) {
-      curves[i].bar = bar_of(budgets[i].rows, curves[i].name, peak_amplitude_goal);
+      curves[i].band = amplitude_band(curves[i], budgets[i]);
     }
   }
   return budgets;

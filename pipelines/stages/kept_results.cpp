@@ -23,8 +23,10 @@
 namespace microslip::pipelines {
 
 auto members(Is<CurveBudget> auto& value) {
-  auto& [rows, unknown, left_out, no_bound, touches, dissipated_energy, energy_ratio] = value;
-  return std::tie(rows, unknown, left_out, no_bound, touches, dissipated_energy, energy_ratio);
+  auto& [rows, unknown, left_out, no_bound, touches, dissipated_energy, energy_ratio, along] =
+      value;
+  return std::tie(rows, unknown, left_out, no_bound, touches, dissipated_energy, energy_ratio,
+                  along);
 }
 auto members(Is<PictureFile> auto& value) {
   auto& [name, bytes] = value;

@@ -5,6 +5,7 @@
 #include <exception>
 #include <utility>
 
+#include "pipelines/accuracy/amplitude_band.hpp"
 #include "pipelines/accuracy/effect_bounds.hpp"
 #include "pipelines/accuracy/models_left_out.hpp"
 #include "pipelines/description/curve_request.hpp"
@@ -68,7 +69,7 @@ bool keep_finished(const Solution& before, const std::vector<std::size_t>& again
                                          error_budget(now.model, now.scene, {}, curves[i]))
                      : std::move(budgets[i]);
     if (budget.has_bar()) {
-      curves[i].bar = bar_of(budget.rows, curves[i].name, peak_amplitude_goal);
+      curves[i].band = amplitude_band(curves[i], budget);
     }
     now.curves[again[i]] = std::move(curves[i]);
     any = true;

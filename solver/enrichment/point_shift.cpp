@@ -9,15 +9,42 @@
 #include "solver/branch/start_point.hpp"
 
 namespace microslip::solver {
+namespace {
+
+/// Newton's step without its part along the branch, by one set of factors; near a fold, where the
+/// frequency is no border of them, by those that the branch's direction borders.
+BranchVector step_across(const BalanceEvaluation& at, const Scaling& scaling) {
+  constexpr double least_part = 1e-3;  // of the direction, that is the frequency
+  const Eigen::Index n = at.residual.size();
+  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(n + 1, 2);
+  right.col(0).head(n) = -at.residual / scaling.residual;
+  right(n, 1) = 1.0;
+  BranchVector row{Eigen::VectorXd::Zero(n), 1.0};
+  Eigen::VectorXd step;
+  for (int i = 0; i < 2; ++i) {
+    const Eigen::MatrixXd both = BorderedFactors(at, row, scaling).solve(right);
+    const Eigen::VectorXd direction = both.col(1).normalized();
+    step = both.col(0) - both.col(0).dot(direction) * direction;
+    row = {direction.head(n), direction[n]};
+    if (i == 0 && std::abs(direction[n]) > least_part) break;
+  }
+  return {step.head(n) * scaling.x, step[n] * scaling.parameter};
+}
+
+}  // namespace
 
 std::optional<PointShift> point_shift(const Scene& scene, const ResponsePoint& point) {
-  HarmonicBalance balance(scene, HarmonicSet(point.orders));
+  return point_shift(scene, HarmonicSet(point.orders), point);
+}
+
+std::optional<PointShift> point_shift(const Scene& scene, const HarmonicSet& set,
+                                      const ResponsePoint& point) {
+  HarmonicBalance balance(scene, set);
   const Eigen::VectorXd x = balance.unknowns(point.q);
   const Scaling scaling = natural_scaling(balance, x, point.frequency);
   const BalanceEvaluation at = balance.evaluate(x, point.frequency);
-  const std::optional<BranchVector> along = null_vector(at, scaling, 1.0);
-  if (!along || !(point.amplitude > 0.0)) return std::nullopt;
-  const BranchVector step = newton_step(at, *along, scaling);
+  if (!(point.amplitude > 0.0)) return std::nullopt;
+  const BranchVector step = step_across(at, scaling);
   if (!step.x.allFinite() || !std::isfinite(step.parameter)) return std::nullopt;
   const OutputAmplitude output = output_amplitude(balance.harmonics(x), scene.output);
   const Eigen::VectorXd gradient = balance.unknowns(output.gradient);

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, Iterator, Mapping, Optional, Sequence, Un
 
 import numpy as np
 from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 
 from microslip.branch import AMPLITUDE, cubics, polyline
 from microslip.plots.numbers import is_number
@@ -13,6 +14,7 @@ from microslip.plots.run_folder import Run, load_of
 from microslip.plots.style import ACCENT, legend_below, light_grid, log_scale, subplots
 
 if TYPE_CHECKING:
+    from matplotlib.artist import Artist
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
@@ -73,6 +75,34 @@ def draw_bar(axes: Axes, run: Run, curve: Mapping[str, Any]) -> None:
                   fmt="none", ecolor=run.colour(load_of(curve)), elinewidth=0.7, capsize=1.5, alpha=0.7, zorder=3.4)
 
 
+def has_band(table: Mapping[str, Any]) -> bool:
+    return "amplitude_low_m" in table and len(table["frequency_Hz"]) > 1
+
+
+def band(table: Mapping[str, Any], n: int = 600) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Frequencies, least and largest amplitudes there, of all parts of a branch that turns; NaN where it is not."""
+    frequency, amplitude, low, high = (np.asarray(table[key]) for key in (
+        "frequency_Hz", "amplitude_m", "amplitude_low_m", "amplitude_high_m"))
+    low = np.maximum(low, 1e-3 * amplitude)  # zero is nowhere on a logarithmic axis
+    places = np.union1d(np.linspace(frequency.min(), frequency.max(), n), frequency)
+    least, largest = np.full(len(places), np.inf), np.full(len(places), -np.inf)
+    for i in range(len(frequency) - 1):
+        ends = sorted((i, i + 1), key=lambda k: frequency[k])
+        here = slice(*np.searchsorted(places, frequency[ends] + np.array([0.0, 1e-12])))
+        for level, keep, of_all in ((low, np.minimum, least), (high, np.maximum, largest)):
+            of_all[here] = keep(of_all[here], np.interp(places[here], frequency[ends], level[ends]))
+    found = least <= largest
+    return places, np.where(found, least, np.nan), np.where(found, largest, np.nan)
+
+
+def draw_band(axes: Axes, run: Run, curve: Mapping[str, Any], table: Mapping[str, Any]) -> None:
+    """Between which amplitudes the curve lies, where the run tells it."""
+    if not has_band(table):
+        return
+    places, low, high = band(table)
+    axes.fill_between(places, low / run.size, high / run.size, color=run.colour(load_of(curve)), linewidth=0, alpha=0.14, zorder=2)
+
+
 def draw_curve(axes: Axes, run: Run, curve: Mapping[str, Any], table: Mapping[str, Any]) -> None:
     load = load_of(curve)
     colour = run.colour(load)
@@ -90,6 +120,7 @@ def draw_curve(axes: Axes, run: Run, curve: Mapping[str, Any], table: Mapping[st
         axes.scatter(frequency[chosen], amplitude[chosen], color=face, edgecolor=colour,
                      linewidth=0.8, zorder=4, **style)
     draw_bar(axes, run, curve)
+    draw_band(axes, run, curve, table)
     draw_richer(axes, run, curve)
     if not curve["complete"]:
         axes.scatter(frequency[-1], amplitude[-1], marker="x", s=22, color=ACCENT, zorder=5)
@@ -114,17 +145,19 @@ def not_judged(run: Run) -> list[Line2D]:
 
 def legend_of_marks(figure: Figure, run: Run) -> None:
     grey = {"color": "0.3"}
-    kinds = [Line2D([], [], label="stable", **grey),
-             Line2D([], [], linestyle=DASHED, label="unstable", **grey),
-             *not_judged(run),
-             Line2D([], [], marker="o", markersize=4, linestyle="", label="peak", **grey),
-             Line2D([], [], marker="D", markersize=4, linestyle="", markerfacecolor="white", label="fold", **grey)]
+    kinds: list[Artist] = [Line2D([], [], label="stable", **grey),
+                           Line2D([], [], linestyle=DASHED, label="unstable", **grey),
+                           *not_judged(run),
+                           Line2D([], [], marker="o", markersize=4, linestyle="", label="peak", **grey),
+                           Line2D([], [], marker="D", markersize=4, linestyle="", markerfacecolor="white", label="fold", **grey)]
     highest = sorted({richer[0] for richer in (richer_peak(curve) for curve, _ in run.curves) if richer})
     if highest:
         kinds.append(Line2D([], [], marker="*", markersize=7, linestyle="", markerfacecolor="white",
                             label=f"peak with {highest[-1]} harmonics", **grey))
     if any(curve.get("bar") for curve, _ in run.curves):
         kinds.append(Line2D([], [], linewidth=0.8, marker="+", markersize=8, label="error of the peak", color="0.5"))
+    if any(has_band(table) for _, table in run.curves):
+        kinds.append(Patch(facecolor="0.5", alpha=0.3, label="error along the curve"))
     if any(not curve["complete"] for curve, _ in run.curves):
         kinds.append(Line2D([], [], color=ACCENT, marker="x", markersize=5, linestyle="",
                             label="ends here (incomplete)"))
