@@ -96,6 +96,14 @@ std::optional<double> told_error(const ReducedModel& model, const SceneDescripti
   return std::nullopt;
 }
 
+/// What harmonics leave out is told by more of them; that is no part of what the curve takes.
+void check_with_more(const ReducedModel& model, SceneDescription scene, CurveResult& curve) {
+  const auto* load = std::get_if<double>(&curve.load);
+  if (load == nullptr) return;
+  scene.settings.harmonics.checked = true;
+  check_harmonics(model, scene, *load, curve, [] { return interrupt_requested(); });
+}
+
 void climb_rung(const Rung& rung, const std::string& source, const TimedStructure& base,
                 Repetitions& again, std::vector<RungResult>& results) {
   const TimedStructure structure = structure_of(rung, base, again);
@@ -112,13 +120,15 @@ void climb_rung(const Rung& rung, const std::string& source, const TimedStructur
     });
     const solver::ResponsePoint* peak = highest_peak(curve.curve);
     if (peak == nullptr || !curve.curve.complete) continue;
+    if (source == "harmonics") check_with_more(model, rung.scene, curve);
     RungResult result{.curve = curve.name,
                       .value = rung.value,
                       .seconds = structure.seconds + tracing.wall,
                       .cpu_seconds = structure.cpu_seconds + tracing.cpu,
                       .runs = std::min(structure.runs, tracing.runs),
                       .amplitude = peak->amplitude,
-                      .frequency = peak->frequency};
+                      .frequency = peak->frequency,
+                      .is_peak = peak->mark == solver::PointMark::peak};
     result.estimated_error = told_error(model, rung.scene, richer, source, curve);
     results.push_back(std::move(result));
   }
@@ -135,7 +145,8 @@ void add_errors(const Ladder& ladder, std::vector<RungResult>& results) {
     if (&result == finest[result.curve]) continue;
     result.true_error = result.amplitude / finest[result.curve]->amplitude - 1.0;
     const RungResult* coarser = before[result.curve];
-    if (coarser != nullptr && sizes[result.value] > 0.0) {
+    const bool has_order = coarser != nullptr && coarser->is_peak && result.is_peak;
+    if (has_order && sizes[result.value] > 0.0) {
       result.order = std::log(std::abs(*coarser->true_error / *result.true_error)) /
                      std::log(sizes[coarser->value] / sizes[result.value]);
       if (!std::isfinite(*result.order)) result.order.reset();

@@ -21,6 +21,7 @@ struct RungResult {
   int runs = 1;              ///< how often the curve was timed
   double amplitude = 0.0;    ///< of its highest peak [m]
   double frequency = 0.0;    ///< [rad/s]
+  bool is_peak = true;       ///< false: the highest place is an end of the range
   std::optional<double>
       true_error{};  ///< relative, signed: amplitude / that of the finest rung − 1
   std::optional<double> estimated_error{};  ///< the same as the error budget of that rung tells it

@@ -91,7 +91,8 @@ Ladder of_harmonics(const SceneDescription& scene) {
   Ladder ladder{"harmonics", "harmonics", {}};
   for (const int highest : {1, 3, 5, 9, 17}) {
     ladder.rungs.push_back(rung(scene, fmt::format("{}", highest), 0.0, [&](auto& other) {
-      other.settings.harmonics = {.highest = highest, .orders = {}, .tolerance = 0.0};
+      other.settings.harmonics = {
+          .highest = highest, .orders = {}, .tolerance = 0.0, .checked = false};
     }));
   }
   return ladder;

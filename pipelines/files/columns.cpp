@@ -168,6 +168,9 @@ constexpr std::array ladder_table{
     Column<RungResult>{"curve", "", "its name", [](const auto& r) { return r.curve; }},
     Column<RungResult>{"runs", "1", "how often mesh, modes and curve were timed, the least of them",
                        [](const auto& r) { return fmt::format("{}", r.runs); }},
+    Column<RungResult>{"at", "",
+                       "peak, or range_end where the highest place is an end of the range",
+                       [](const auto& r) { return std::string(r.is_peak ? "peak" : "range_end"); }},
 };
 
 constexpr std::array campbell_table{
@@ -285,9 +288,10 @@ constexpr std::array instant_table{
 };
 
 constexpr std::array cycle_table{
-    MapArray<Eigen::VectorXd>{"slip_guard_Pa", "Pa",
-                              "above 0 the point slips at some time of the period",
-                              &ContactMap::slip_guard},
+    MapArray<Eigen::VectorXd>{
+        "slip_guard_Pa", "Pa",
+        "above 0 a point that touches and rubs slips at some time of the period",
+        &ContactMap::slip_guard},
     MapArray<Eigen::VectorXd>{"smallest_load_Pa", "Pa", "below 0 it is open at some time",
                               &ContactMap::smallest_load},
     MapArray<Eigen::VectorXd>{"largest_load_Pa", "Pa", "below 0 it is open throughout",
@@ -402,6 +406,11 @@ constexpr std::array weight_table{
 constexpr std::array fit_table{
     OfPatch{"fit_degree", "1", "of the polynomials fitted to the mode shapes; -1: none",
             [](const Patch& p) { return one(static_cast<double>(p.fit_degree)); }},
+    OfPatch{"load_share", "1",
+            "of a load that presses, relative to the other contacts: what the preload field is "
+            "multiplied by is the load times this over the sum of all; moments tilt the bodies, "
+            "which no field says",
+            [](const Patch& p) { return one(p.load_share); }},
     OfPatch{"fit_error", "1", "of them, relative, one per mode",
             [](const Patch& p) { return p.fit_error; }},
 };
@@ -492,8 +501,13 @@ void add_map_tables(std::string& text) {
   std::string stems;
   for (const char* stem : stem_table)
     stems += fmt::format("{}`{}`", stems.empty() ? "" : ", ", stem);
-  add_table(text, fmt::format("maps/NAME_*.vtp: of the period, of each STATE of {}", stems),
-            state_table, "STATE_");
+  add_table(
+      text,
+      fmt::format(
+          "maps/NAME_*.vtp: of the period, of each STATE of {} (the last in two directions; the "
+          "`slip_share` of a curve has all three)",
+          stems),
+      state_table, "STATE_");
   add_rows(text, "STATE_", count_table);
   add_table(text, "maps/NAME.h5: of the map", map_table);
   add_rows(text, "", map_place_table, weight_table, cell_table);

@@ -21,7 +21,7 @@ SCENE = os.path.join(SOURCE, "share", "scenes", "blade_to_ground.toml")
 LEAN = ("model.element_size=10 mm", "response.preload=[500]", "response.frequency=[326, 336]", "contact.points=8",
         "modes.count=3", "response.harmonics=1")
 KNOBS = ("element_size", "modes", "attachment_degree", "cells", "fit", "second_direction", "harmonics")
-HEADER = "value,seconds,cpu_seconds,peak_amplitude_m,peak_frequency_Hz,true_error,estimated_error,order,curve,runs"
+HEADER = "value,seconds,cpu_seconds,peak_amplitude_m,peak_frequency_Hz,true_error,estimated_error,order,curve,runs,at"
 
 
 def converge(scene, folder, *settings, repeat="0"):
