@@ -5,6 +5,7 @@
 #   share/scripts/fuzz.sh [SECONDS [READER …]]     60 s each by default
 #                                                  readers: toml csv units expression msh step matrix nodes
 #                                                  MICROSLIP_FUZZ_BUILD: the folder, build/fuzz by default
+#                                                  MICROSLIP_FUZZ_RUNS: ended after as many inputs, if that is sooner
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 "$root/share/scripts/setup.sh" --fuzz
@@ -54,7 +55,8 @@ for reader in "$@"; do
     "$toml_as_linked" $sources -o "$build/fuzz_$reader" -lfmt -ludunits2 -lmuparser
   seeds_of "$reader"
   echo "fuzz: $reader, $seconds s"
-  (cd "$build" && "./fuzz_$reader" -max_total_time="$seconds" -timeout=5 -rss_limit_mb=1024 -max_len=20000 \
+  (cd "$build" && "./fuzz_$reader" -max_total_time="$seconds" \
+    -runs="${MICROSLIP_FUZZ_RUNS:--1}" -timeout=5 -rss_limit_mb=1024 -max_len=20000 \
     -artifact_prefix="$reader-" -print_final_stats=1 "corpus_$reader" >"$reader.log" 2>&1) ||
     { tail -n 40 "$build/$reader.log" >&2; exit 1; }
   grep -E "number_of_executed_units|peak_rss" "$build/$reader.log"
