@@ -196,7 +196,7 @@ enum class MapName { peak, folds };
 using MapEntry = std::variant<MapName, double>;  ///< or a frequency [Hz]
 
 /// A motion integrated in time has all harmonics; at least so many are kept of it.
-inline constexpr int least_harmonics_of_time = 15;
+inline constexpr int least_harmonics_of_time = 60;
 /// Where harmonics are given, the highest peak is solved again with so many more
 /// (response/harmonics_check.hpp).
 inline constexpr int harmonics_of_a_check = 8;

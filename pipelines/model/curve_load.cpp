@@ -1,22 +1,17 @@
 #include "pipelines/model/curve_load.hpp"
 
-#include <cmath>
+#include <algorithm>
 
 #include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {
 namespace {
 
-/// A gap is as wide as its load over the stiffness: whether that is the same everywhere.
+/// Moments tilt the bodies, and the gap is not the same everywhere (contact/patch/patch_load.hpp).
 bool is_one_gap(const ReducedModel& model) {
-  constexpr double same = 1e-6;
-  const double width = 1.0 / total_normal_stiffness(model);  // at unit load
-  for (const contact::Patch& patch : model.patches) {
-    const Eigen::ArrayXd own =
-        patch.cells.preload_field.array() / patch.cells.stiffness.col(1).array();
-    if (!((own - width).abs() <= same * std::abs(width)).all()) return false;
-  }
-  return true;
+  return std::ranges::all_of(model.patches, [](const contact::Patch& patch) {
+    return patch.tilted_areas.empty() && patch.cells.preload_field.size() > 0;
+  });
 }
 
 }  // namespace

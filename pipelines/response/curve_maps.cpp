@@ -1,5 +1,8 @@
 #include "pipelines/response/curve_maps.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <variant>
@@ -41,6 +44,46 @@ std::vector<NamedMap> maps_of(const ReducedModel& model, const SceneDescription&
   return maps;
 }
 
+/// Those of a curve that lie at a frequency [rad/s].
+std::vector<solver::ResponsePoint> points_of(const solver::ResponseCurve& curve, double frequency) {
+  constexpr double same = 1e-9;
+  std::vector<solver::ResponsePoint> points;
+  std::ranges::copy_if(curve.points, std::back_inserter(points), [&](const auto& point) {
+    return std::abs(point.frequency - frequency) <= same * frequency;
+  });
+  return points;
+}
+
+/// Solutions at a frequency [Hz]. A motion that was integrated is not replaced by one of harmonic
+/// balance.
+std::vector<solver::ResponsePoint> solutions_at(const ReducedModel& model,
+                                                const SceneDescription& scene, double load,
+                                                const CurveResult& result, double frequency_hz) {
+  const ResponseDescription& range = *scene.response;
+  const double frequency = contact::two_pi * frequency_hz;
+  if (result.integrated) return points_of(result.curve, frequency);
+  if (frequency_hz == range.frequency_begin_hz && frequency_hz == range.frequency_end_hz) {
+    return result.curve.points;
+  }
+  const solver::ContinuationOptions options = continuation_options(scene, model);
+  return solver::points_at_frequency(balanced_scene(model, load, options), result.curve, frequency,
+                                     options);
+}
+
+std::string no_map(const CurveResult& result, double frequency_hz) {
+  if (result.integrated) {
+    return fmt::format(
+        "curve {}: no map at {:g} Hz, where no motion was integrated: set "
+        "response.maps to frequencies that it has, or response.frequency to this one",
+        result.name, frequency_hz);
+  }
+  return fmt::format(
+      "curve {}: no map at {:g} Hz, where it has no solution, or none whose proof "
+      "passes: set response.maps to frequencies that it passes, or "
+      "response.frequency to a range with it",
+      result.name, frequency_hz);
+}
+
 }  // namespace
 
 CurveMaps curve_maps(const ReducedModel& model, const SceneDescription& scene,
@@ -54,26 +97,13 @@ CurveMaps curve_maps(const ReducedModel& model, const SceneDescription& scene,
     }
   };
   const ReducedModel solved = model_of(model, result.curve);
-  const solver::ContinuationOptions options = continuation_options(scene, solved);
   for (const MapEntry& entry : scene.response->maps) {
     if (const auto* frequency = std::get_if<double>(&entry)) {
-      const ResponseDescription& range = *scene.response;
-      const bool solved_there =
-          *frequency == range.frequency_begin_hz && *frequency == range.frequency_end_hz;
-      const auto points = solved_there ? result.curve.points
-                                       : solver::points_at_frequency(
-                                             balanced_scene(solved, *load, options), result.curve,
-                                             contact::two_pi * *frequency, options);
+      const auto points = solutions_at(solved, scene, *load, result, *frequency);
       for (std::size_t i = 0; i < points.size(); ++i) {
         add(fmt::format("{:g}Hz_{}", *frequency, i + 1), points[i]);
       }
-      if (points.empty()) {
-        drawn.missing.push_back(
-            fmt::format("curve {}: no map at {:g} Hz, where it has no solution, or none whose "
-                        "proof passes: set response.maps "
-                        "to frequencies that it passes, or response.frequency to a range with it",
-                        result.name, *frequency));
-      }
+      if (points.empty()) drawn.missing.push_back(no_map(result, *frequency));
     } else if (std::get<MapName>(entry) == MapName::peak) {
       if (const auto* peak = highest_peak(result.curve)) add("peak", *peak);
     } else {

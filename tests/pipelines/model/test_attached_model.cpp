@@ -221,6 +221,11 @@ TEST(AttachedModel, AGapGivenAsALengthIsThatLengthInEveryBasis) {
                 150.0 / total_normal_stiffness(model), 1e-17);
     EXPECT_FALSE(gap_of(150.0, model).has_value());
     EXPECT_FALSE(gap_of(LimitName::free, model).has_value());
+    ReducedModel uneven = model;  // of a load that presses
+    for (contact::Patch& patch : uneven.patches) patch.cells.preload_field[0] *= 3.0;
+    EXPECT_NEAR(gap_of(load, uneven).value(), 3e-6, 1e-17);
+    uneven.patches[0].tilted_areas.emplace_back();
+    EXPECT_FALSE(gap_of(load, uneven).has_value()) << "bodies that tilt";
     ReducedModel smooth = model;
     for (contact::Patch& patch : smooth.patches) patch.cells.stiffness.col(1).setZero();
     try {
