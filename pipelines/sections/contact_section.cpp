@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "pipelines/sections/friction_section.hpp"
 #include "pipelines/sections/law_table.hpp"
 
@@ -177,6 +179,23 @@ PatchSettings read_patch_settings(const SectionReader& s) {
   return patch;
 }
 
+namespace {
+
+void require_rough_points(const SectionReader& s, const contact::SurfaceRules& rules,
+                          const ModalModel& model) {
+  if (!rules.roughness || rules.roughness->height() == 0.0) return;
+  for (std::size_t i = 0; i < model.points.size(); ++i) {
+    if (model.points[i].normal_stiffness > 0.0) continue;
+    s.fail("roughness",
+           fmt::format("rough surfaces need a normal_stiffness above 0, and that of point {} of "
+                       "{} in modal.points is {:g}",
+                       i + 1, model.points.size(), model.points[i].normal_stiffness),
+           s.node("roughness"));
+  }
+}
+
+}  // namespace
+
 contact::SurfaceRules read_surface_rules(SectionReader s, const std::filesystem::path& folder,
                                          ModalModel& model, double& wear_coefficient) {
   contact::SurfaceRules rules;
@@ -188,6 +207,7 @@ contact::SurfaceRules read_surface_rules(SectionReader s, const std::filesystem:
     if (!friction.law) set_friction(s, friction.at_rest, model);
   }
   rules.roughness = read_roughness(s);
+  require_rough_points(s, rules, model);
   wear_coefficient = s.number("wear_coefficient");
   return rules;
 }

@@ -348,6 +348,15 @@ TEST(Overrides, MessagesNameTheOverride) {
   expect_complaint(complaint(modal_text, {"modal.points[0].preload=nan"}), {"--set", "preload"});
 }
 
+TEST(SceneFile, RoughPointsNeedNormalStiffness) {
+  const std::string text =
+      replaced(modal_text, "weight = 2, tangential_stiffness = 1e4, normal_stiffness = 2e4",
+               "weight = 2, tangential_stiffness = 1e4, normal_stiffness = 0");
+  EXPECT_EQ(complaint(text), "");
+  expect_complaint(complaint(text, {"contact.roughness={ law = \"cubic\", height = \"1 um\" }"}),
+                   {"contact.roughness", "point 2 of 2", "normal_stiffness"});
+}
+
 TEST(Overrides, OneWithoutAValueTakesTheKeyAway) {
   EXPECT_EQ(parse(blade_text, {"contact.wear_coefficient="}).contacts.front().wear_coefficient,
             0.0);

@@ -54,7 +54,7 @@ def map_figure(path: str, title: str) -> Figure:
     contact = ContactMap(path)
     figure = figure_of(contact, os.path.dirname(os.path.dirname(path)), name_of(path))
     unit, size = length_unit(contact.amplitude)
-    stability = {1: ", stable", 0: ", unstable"}.get(contact.stable, "")
+    stability = {1: ", stable", 0: ", unstable"}.get(contact.stable, ", stability not judged")
     figure_title(figure, f"{title}, {contact.frequency:.6g} Hz, {contact.amplitude / size:.4g} {unit}{stability}")
     return figure
 
