@@ -29,9 +29,11 @@ struct PointShift {
 /// @param point  solved without them; its harmonics are taken.
 /// @return empty: the branch has no direction there, or the output does not move.
 [[nodiscard]] std::optional<PointShift> point_shift(const Scene& scene, const ResponsePoint& point);
-/// @param set  harmonics of the other model, those of the point among them.
+/// @param set    harmonics of the other model, those of the point among them.
+/// @param solve  Newton's method goes on across the branch where the step is long: then also empty
+///               where it finds nothing.
 [[nodiscard]] std::optional<PointShift> point_shift(const Scene& scene, const HarmonicSet& set,
-                                                    const ResponsePoint& point);
+                                                    const ResponsePoint& point, bool solve);
 
 /// The same at the frequency of the point, [∂R/∂x] δ = −R: the change of its amplitude.
 /// @param range  of the curve with the other forces: which harmonics are unknowns then.
@@ -42,14 +44,14 @@ struct PointShift {
 
 /// What harmonics that a curve lacks move it by, all along: away from its highest peak, which they
 /// are chosen for or checked at, others may count. One step across the branch in the equations that
-/// have them, at the peaks and folds, at every eighth point (every sixteenth of large scenes), and
+/// have them, solved where it is long, at the peaks and folds, at every eighth point (every sixteenth of large scenes), and
 /// between two of these that differ; elsewhere linear from one to the next.
 /// @param scene    with a contact that takes `highest` harmonics.
 /// @param curve    solved by harmonic balance.
 /// @param highest  harmonic; of those beyond the curve's own the next few are taken.
-/// @param stop     asked between points; true ends with what there is.
+/// @param stop     asked between points; true ends it.
 /// @return sizes, one for each point; empty of a curve that is proved linear, and where nothing
-///         could be told.
+///         could be told, or time was over.
 [[nodiscard]] std::vector<PointShift> shifts_along(const Scene& scene, const ResponseCurve& curve,
                                                    int highest, const std::function<bool()>& stop);
 

@@ -53,6 +53,15 @@ struct Interval {
   }
 };
 
+/// Beyond an end of the range, as far as a box reaches, a curve goes on as it does there: in
+/// proportion, so that it stays above zero.
+double beyond(const solver::ResponsePoint& end, const solver::ResponsePoint& before,
+              double distance) {
+  if (!end.slope || !(end.amplitude > 0.0)) return end.amplitude;
+  const double way = std::copysign(distance, end.frequency - before.frequency);
+  return end.amplitude * std::exp(end.slope->amplitude * way / end.amplitude);
+}
+
 /// Boxes of the branch from a point on, one way, as far as they hold its frequency.
 void take_along(const std::vector<solver::ResponsePoint>& points, const std::vector<Box>& boxes,
                 std::size_t from, std::ptrdiff_t way, Interval& interval) {
@@ -72,6 +81,13 @@ void take_along(const std::vector<solver::ResponsePoint>& points, const std::vec
     interval.take(std::lerp(points[before].amplitude, points[at].amplitude, part),
                   std::lerp(boxes[before].amplitude, boxes[at].amplitude, part));
     return;
+  }
+  if (n < 2) return;
+  const std::size_t end = way > 0 ? points.size() - 1 : 0;
+  const std::size_t before = way > 0 ? points.size() - 2 : 1;
+  const double left = boxes[end].frequency * place - std::abs(points[end].frequency - place);
+  if (left > 0.0) {
+    interval.take(beyond(points[end], points[before], left), boxes[end].amplitude);
   }
 }
 

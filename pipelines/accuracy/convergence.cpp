@@ -86,7 +86,8 @@ std::optional<double> told_error(const ReducedModel& model, const SceneDescripti
   if (source == "harmonics") {
     SceneDescription checked = scene;
     checked.settings.harmonics.checked = true;
-    check_harmonics(model, checked, std::get<double>(curve.load), curve);
+    check_harmonics(model, checked, std::get<double>(curve.load), curve,
+                    [] { return interrupt_requested(); });
   }
   const CurveBudget budget = error_budget(model, scene, richer, curve);
   for (const ErrorRow& row : budget.rows) {
@@ -94,14 +95,6 @@ std::optional<double> told_error(const ReducedModel& model, const SceneDescripti
     if (asked) return 1.0 / (1.0 + row.effect) - 1.0;  // against the refined value
   }
   return std::nullopt;
-}
-
-/// What harmonics leave out is told by more of them; that is no part of what the curve takes.
-void check_with_more(const ReducedModel& model, SceneDescription scene, CurveResult& curve) {
-  const auto* load = std::get_if<double>(&curve.load);
-  if (load == nullptr) return;
-  scene.settings.harmonics.checked = true;
-  check_harmonics(model, scene, *load, curve, [] { return interrupt_requested(); });
 }
 
 void climb_rung(const Rung& rung, const std::string& source, const TimedStructure& base,
@@ -120,7 +113,6 @@ void climb_rung(const Rung& rung, const std::string& source, const TimedStructur
     });
     const solver::ResponsePoint* peak = highest_peak(curve.curve);
     if (peak == nullptr || !curve.curve.complete) continue;
-    if (source == "harmonics") check_with_more(model, rung.scene, curve);
     RungResult result{.curve = curve.name,
                       .value = rung.value,
                       .seconds = structure.seconds + tracing.wall,
@@ -145,7 +137,8 @@ void add_errors(const Ladder& ladder, std::vector<RungResult>& results) {
     if (&result == finest[result.curve]) continue;
     result.true_error = result.amplitude / finest[result.curve]->amplitude - 1.0;
     const RungResult* coarser = before[result.curve];
-    const bool has_order = coarser != nullptr && coarser->is_peak && result.is_peak;
+    const bool has_order =
+        coarser != nullptr && coarser->is_peak && result.is_peak && finest[result.curve]->is_peak;
     if (has_order && sizes[result.value] > 0.0) {
       result.order = std::log(std::abs(*coarser->true_error / *result.true_error)) /
                      std::log(sizes[coarser->value] / sizes[result.value]);

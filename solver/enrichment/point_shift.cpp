@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "solver/balance/condensed.hpp"
+#include "solver/balance/few_jacobians.hpp"
 #include "solver/balance/first_harmonics.hpp"
 #include "solver/balance/newton.hpp"
 #include "solver/balance/output_amplitude.hpp"
@@ -11,9 +12,14 @@
 namespace microslip::solver {
 namespace {
 
+struct StepAcross {
+  BranchVector step;
+  BranchVector along;  ///< the direction of the branch, in scaled variables
+};
+
 /// Newton's step without its part along the branch, by one set of factors; near a fold, where the
 /// frequency is no border of them, by those that the branch's direction borders.
-BranchVector step_across(const BalanceEvaluation& at, const Scaling& scaling) {
+StepAcross step_across(const BalanceEvaluation& at, const Scaling& scaling) {
   constexpr double least_part = 1e-3;  // of the direction, that is the frequency
   const Eigen::Index n = at.residual.size();
   Eigen::MatrixXd right = Eigen::MatrixXd::Zero(n + 1, 2);
@@ -28,27 +34,51 @@ BranchVector step_across(const BalanceEvaluation& at, const Scaling& scaling) {
     row = {direction.head(n), direction[n]};
     if (i == 0 && std::abs(direction[n]) > least_part) break;
   }
-  return {step.head(n) * scaling.x, step[n] * scaling.parameter};
+  return {{step.head(n) * scaling.x, step[n] * scaling.parameter}, row};
+}
+
+/// Where the step tells more than this, Newton's method goes on across the branch.
+struct LongStep {
+  double amplitude;
+  double frequency;
+};
+constexpr LongStep long_step{1e-2, 1e-4};
+
+/// The place where the plane across the branch meets that of the other model; empty: not found.
+std::optional<PointShift> solved_shift(HarmonicBalance& balance, const ResponsePoint& point,
+                                       const BranchVector& along, const Scaling& scaling) {
+  constexpr NewtonOptions options{.tolerance = 1e-8, .max_iterations = 8, .max_evaluations = 24};
+  const NewtonResult there =
+      solve_balance(balance, ContinuationOptions::Corrector::few_jacobians,
+                    {balance.unknowns(point.q), point.frequency}, along, scaling, options);
+  if (!there.converged) return std::nullopt;
+  const double amplitude =
+      output_amplitude(balance.harmonics(there.point.x), balance.scene().output).half_peak_to_peak;
+  return PointShift{there.point.parameter / point.frequency - 1.0,
+                    amplitude / point.amplitude - 1.0};
 }
 
 }  // namespace
 
 std::optional<PointShift> point_shift(const Scene& scene, const ResponsePoint& point) {
-  return point_shift(scene, HarmonicSet(point.orders), point);
+  return point_shift(scene, HarmonicSet(point.orders), point, false);
 }
 
 std::optional<PointShift> point_shift(const Scene& scene, const HarmonicSet& set,
-                                      const ResponsePoint& point) {
+                                      const ResponsePoint& point, bool solve) {
   HarmonicBalance balance(scene, set);
   const Eigen::VectorXd x = balance.unknowns(point.q);
   const Scaling scaling = natural_scaling(balance, x, point.frequency);
   const BalanceEvaluation at = balance.evaluate(x, point.frequency);
   if (!(point.amplitude > 0.0)) return std::nullopt;
-  const BranchVector step = step_across(at, scaling);
+  const auto [step, along] = step_across(at, scaling);
   if (!step.x.allFinite() || !std::isfinite(step.parameter)) return std::nullopt;
   const OutputAmplitude output = output_amplitude(balance.harmonics(x), scene.output);
   const Eigen::VectorXd gradient = balance.unknowns(output.gradient);
-  return PointShift{step.parameter / point.frequency, gradient.dot(step.x) / point.amplitude};
+  const PointShift told{step.parameter / point.frequency, gradient.dot(step.x) / point.amplitude};
+  const bool is_long = std::abs(told.amplitude) > long_step.amplitude ||
+                       std::abs(told.frequency) > long_step.frequency;
+  return solve && is_long ? solved_shift(balance, point, along, scaling) : told;
 }
 
 std::optional<double> amplitude_shift(const Scene& scene, const ContinuationOptions& range,

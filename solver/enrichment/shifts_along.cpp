@@ -49,14 +49,20 @@ HarmonicSet richer_set(const Scene& scene, const ResponsePoint& point, int highe
   return own.united(orders);
 }
 
-/// Its size; a step that tells more than all of the amplitude tells nothing but that.
+PointShift size_of(const PointShift& shift, const PointShift& most) {
+  return {std::min(most.frequency, std::abs(shift.frequency)),
+          std::min(most.amplitude, std::abs(shift.amplitude))};
+}
+
+/// Its size. Where nothing is found, what one step tells, within what it may be good for.
 std::optional<PointShift> told_shift(const Scene& scene, const ResponsePoint& point, int highest) {
+  constexpr PointShift most{0.1, 1.0};
+  constexpr PointShift most_by_step{0.01, 0.3};
   const HarmonicSet set = richer_set(scene, point, highest);
   if (set.orders() == HarmonicSet(point.orders).orders()) return PointShift{};
-  const auto shift = point_shift(scene, set, point);
-  if (!shift) return std::nullopt;
-  return PointShift{std::min(1.0, std::abs(shift->frequency)),
-                    std::min(1.0, std::abs(shift->amplitude))};
+  if (const auto solved = point_shift(scene, set, point, true)) return size_of(*solved, most);
+  const auto step = point_shift(scene, set, point, false);
+  return step ? std::optional(size_of(*step, most_by_step)) : std::nullopt;
 }
 
 bool differ(double a, double b, double least) {
@@ -69,7 +75,11 @@ class Samples {
  public:
   Samples(const Scene& scene, const ResponseCurve& curve, int highest,
           const std::function<bool()>& stop)
-      : scene_(scene), curve_(curve), highest_(highest), stop_(stop) {
+      : scene_(scene),
+        curve_(curve),
+        highest_(highest),
+        stop_(stop),
+        asked_(curve.points.size(), false) {
     const std::size_t n = curve.points.size();
     const Density density = density_of(curve);
     for (std::size_t i = 0; i < n; ++i) {
@@ -86,7 +96,8 @@ class Samples {
 
  private:
   void add(std::size_t i) {
-    if (stop_ && stop_()) return;
+    if (asked_[i] || (stop_ && stop_())) return;
+    asked_[i] = true;
     const auto shift = told_shift(scene_, curve_.points[i], highest_);
     if (shift) told_.push_back({i, *shift});
   }
@@ -110,6 +121,7 @@ class Samples {
   const ResponseCurve& curve_;
   int highest_;
   const std::function<bool()>& stop_;
+  std::vector<bool> asked_;
   std::vector<ToldShift> told_;
   std::size_t left_ = 0;
 };
@@ -140,7 +152,7 @@ std::vector<PointShift> shifts_along(const Scene& scene, const ResponseCurve& cu
                                      const std::function<bool()>& stop) {
   if (!scene.contact || !curve.certificate.empty()) return {};
   const Samples samples(scene, curve, highest, stop);
-  if (samples.told().empty()) return {};
+  if (samples.told().empty() || (stop && stop())) return {};
   return spread(samples.told(), curve.points.size());
 }
 

@@ -69,6 +69,18 @@ TEST(AmplitudeBand, HarmonicsCountWhereTheyDo) {
   EXPECT_NEAR(band.high[20], 1.012, far);
 }
 
+// A range ends where somebody has set its end: the curve goes on.
+TEST(AmplitudeBand, ReachesBeyondTheEndsOfTheRange) {
+  CurveResult result = triangle();
+  result.curve.points.front().slope = solver::BranchSlope{0.01, 0.0};
+  result.curve.points.back().slope = solver::BranchSlope{-0.01, 0.0};
+  const AmplitudeBand band = amplitude_band(result, budget(0.025, 0.0, 0.0));
+  EXPECT_NEAR(band.low[40], 0.8 * std::exp(-0.01 * 0.025 * 120.0 / 0.8), far);
+  EXPECT_NEAR(band.high[40], 0.8 + 0.01 * 0.025 * 120.0, far);
+  EXPECT_NEAR(band.low[0], 0.8 * std::exp(-0.01 * 0.025 * 80.0 / 0.8), far);
+  EXPECT_NEAR(band.low[39], 0.8 * std::exp(-0.01 * (0.025 * 119.0 - 1.0) / 0.8), far);
+}
+
 // Where a branch turns back, it has amplitudes of both of its sides.
 TEST(AmplitudeBand, HoldsBothSidesOfAFold) {
   CurveResult result = triangle();

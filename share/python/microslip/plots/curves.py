@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Iterator, Mapping, Optional, Sequence, Union
 
 import numpy as np
+from matplotlib.collections import PolyCollection
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
@@ -79,28 +80,24 @@ def has_band(table: Mapping[str, Any]) -> bool:
     return "amplitude_low_m" in table and len(table["frequency_Hz"]) > 1
 
 
-def band(table: Mapping[str, Any], n: int = 600) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Frequencies, least and largest amplitudes there, of all parts of a branch that turns; NaN where it is not."""
-    frequency, amplitude, low, high = (np.asarray(table[key]) for key in (
-        "frequency_Hz", "amplitude_m", "amplitude_low_m", "amplitude_high_m"))
-    low = np.maximum(low, 1e-3 * amplitude)  # zero is nowhere on a logarithmic axis
-    places = np.union1d(np.linspace(frequency.min(), frequency.max(), n), frequency)
-    least, largest = np.full(len(places), np.inf), np.full(len(places), -np.inf)
-    for i in range(len(frequency) - 1):
-        ends = sorted((i, i + 1), key=lambda k: frequency[k])
-        here = slice(*np.searchsorted(places, frequency[ends] + np.array([0.0, 1e-12])))
-        for level, keep, of_all in ((low, np.minimum, least), (high, np.maximum, largest)):
-            of_all[here] = keep(of_all[here], np.interp(places[here], frequency[ends], level[ends]))
-    found = least <= largest
-    return places, np.where(found, least, np.nan), np.where(found, largest, np.nan)
+def one_way(frequency: np.ndarray) -> Iterator[slice]:
+    """Parts of a branch between its turns."""
+    way = np.sign(np.diff(frequency))
+    turns = [0, *(np.nonzero(way[1:] * way[:-1] < 0)[0] + 1), len(frequency) - 1]
+    return (slice(begin, end + 1) for begin, end in zip(turns, turns[1:]) if end > begin)
 
 
 def draw_band(axes: Axes, run: Run, curve: Mapping[str, Any], table: Mapping[str, Any]) -> None:
-    """Between which amplitudes the curve lies, where the run tells it."""
+    """Between which amplitudes the curve lies, where the run tells it. Axes are those of the curves: a band may reach zero."""
     if not has_band(table):
         return
-    places, low, high = band(table)
-    axes.fill_between(places, low / run.size, high / run.size, color=run.colour(load_of(curve)), linewidth=0, alpha=0.14, zorder=2)
+    frequency, amplitude, low, high = (np.asarray(table[key]) for key in (
+        "frequency_Hz", "amplitude_m", "amplitude_low_m", "amplitude_high_m"))
+    low = np.maximum(low, 1e-3 * amplitude)  # zero is nowhere on a logarithmic axis
+    strips = [np.concatenate((np.column_stack((frequency[part], low[part] / run.size)),
+                              np.column_stack((frequency[part], high[part] / run.size))[::-1])) for part in one_way(frequency)]
+    axes.add_collection(PolyCollection(strips, facecolor=run.colour(load_of(curve)), linewidth=0, alpha=0.14, zorder=2),
+                        autolim=False)
 
 
 def draw_curve(axes: Axes, run: Run, curve: Mapping[str, Any], table: Mapping[str, Any]) -> None:
