@@ -44,8 +44,9 @@ struct PointShift {
 
 /// What harmonics that a curve lacks move it by, all along: away from its highest peak, which they
 /// are chosen for or checked at, others may count. One step across the branch in the equations that
-/// have them, solved where it is long, at the peaks and folds, at every eighth point (every sixteenth of large scenes), and
-/// between two of these that differ; elsewhere linear from one to the next.
+/// have them, solved where it is long, at the peaks and folds, at every eighth point (every
+/// sixteenth of large scenes), and between two of these that differ; elsewhere linear from one to
+/// the next.
 /// @param scene    with a contact that takes `highest` harmonics.
 /// @param curve    solved by harmonic balance.
 /// @param highest  harmonic; of those beyond the curve's own the next few are taken.
