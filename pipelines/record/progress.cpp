@@ -220,7 +220,7 @@ void Progress::point(const std::string& curve, const solver::ResponsePoint& poin
   if (!is_due) return;
   last_drawn_ = now;
   std::string left;
-  if (fraction > first_guess) {
+  if (fraction > first_guess || seconds_left(now) > 0.0) {
     left = "  " + duration_text(fraction < 1.0 ? seconds_left(now) : 0.0) + " left";
   }
   std::string line = fmt::format("{}  {}{}", stage_, text, left);

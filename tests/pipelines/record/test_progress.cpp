@@ -141,6 +141,21 @@ TEST(Progress, ACurveWhosePointsTakeLongTellsWhatIsLeft) {
       << out.str();
 }
 
+// The first of a curve that is solved for with few harmonics before: its forecast is what is known.
+TEST(Progress, APointAtTheBeginningOfAStageTellsTheForecast) {
+  const auto told = [](double expected) {
+    std::ostringstream out;
+    Progress progress(out, true, Verbosity::normal);
+    progress.stage("curves");
+    progress.expect(expected);
+    progress.point("preload_6", {}, 0.0);
+    progress.finish();
+    return out.str();
+  };
+  EXPECT_TRUE(std::regex_search(told(40.0), std::regex("  (39|40) s left"))) << told(40.0);
+  EXPECT_EQ(told(0.0).find("left"), std::string::npos) << "nothing is known";
+}
+
 // Fractions count frequency: before a resonance, where points are few, the pace alone would tell
 // 1 s, beyond it too much.
 TEST(Progress, ThePaceIsBelievedAsFarAsItHasCome) {
