@@ -379,6 +379,11 @@ CurveEffects curve_effects(const SceneDescription& scene, bool second_direction)
           .stability = scene.judges_stability};
 }
 
+int usual_harmonics(const SceneDescription& scene) {
+  const HarmonicSettings& given = scene.settings.harmonics;
+  return given.chosen() ? n_chosen(scene) : given.highest;
+}
+
 ResponseSeconds response_seconds(const SceneDescription& scene, const CurveEffects& effects) {
   const Size size = size_of(scene, effects);
   const double evaluation = evaluation_seconds(effects, size);

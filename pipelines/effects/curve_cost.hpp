@@ -43,6 +43,10 @@ struct ResponseSeconds {
   [[nodiscard]] double total() const { return curves + errors + best_value + bracket; }
 };
 
+/// How many harmonics the curves are expected to have: those given, or what a choice usually ends
+/// with.
+[[nodiscard]] int usual_harmonics(const SceneDescription& scene);
+
 /// @param scene  with [response].
 [[nodiscard]] ResponseSeconds response_seconds(const SceneDescription& scene,
                                                const CurveEffects& effects);

@@ -110,7 +110,7 @@ PictureSeconds picture_seconds(const SceneDescription& scene) {
   const std::vector<CurveRequest> curves = curve_requests(scene);
   const auto n_loaded = static_cast<double>(std::ranges::count_if(curves, is_loaded));
   const double n_maps = n_loaded * static_cast<double>(scene.response->maps.size());
-  const double harmonics = scene.settings.harmonics.highest;
+  const double harmonics = usual_harmonics(scene);
   const double maps = n_maps * (of_a_map + of_a_harmonic * harmonics) + n_loaded * of_a_motion;
   return {.maps = machine_slowness() * maps,
           .plots = machine_slowness() * (of_start + of_a_plot * n_maps)};

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
 #include <vector>
 
 #include "pipelines/scene/scene_file.hpp"
@@ -64,6 +65,17 @@ TEST(StageSeconds, PicturesFollowTheCurvesAndMapsAskedFor) {
   EXPECT_GT(four.plots, two.plots);
   EXPECT_LT(none.maps, two.maps);  // motions
   EXPECT_GT(none.plots, 0.0);
+}
+
+// The highest that may be chosen is 30; those that are chosen are some twelve.
+TEST(StageSeconds, MapsHaveTheHarmonicsThatAreUsuallyChosen) {
+  const auto maps = [](const char* harmonics) {
+    return picture_seconds(read_scene(MICROSLIP_SCENES "/blade_to_ground.toml",
+                                      {std::string("response.harmonics=") + harmonics}))
+        .maps;
+  };
+  EXPECT_GT(maps("auto"), maps("3"));
+  EXPECT_LT(maps("auto"), maps("25"));
 }
 
 }  // namespace
