@@ -32,9 +32,9 @@ std::vector<Box> boxes_of(const CurveResult& result, const CurveBudget& budget) 
   const Box harmonics = box_of(budget.rows, true);
   std::vector<Box> boxes(points.size(), others);
   const bool are_told = budget.along.size() == points.size();
+  const solver::ResponsePoint* highest = highest_peak(result.curve);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const bool is_highest = &points[i] == highest_peak(result.curve);
-    const Box here = is_highest || !are_told
+    const Box here = &points[i] == highest || !are_told
                          ? harmonics
                          : Box{budget.along[i].frequency, budget.along[i].amplitude};
     boxes[i].frequency += here.frequency;

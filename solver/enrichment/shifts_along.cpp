@@ -56,7 +56,7 @@ PointShift size_of(const PointShift& shift, const PointShift& most) {
 
 /// Its size. Where nothing is found, what one step tells, within what it may be good for.
 std::optional<PointShift> told_shift(const Scene& scene, const ResponsePoint& point, int highest) {
-  constexpr PointShift most{0.1, 1.0};
+  constexpr PointShift most{0.1, 1.0};  // what is farther is another branch
   constexpr PointShift most_by_step{0.01, 0.3};
   const HarmonicSet set = richer_set(scene, point, highest);
   if (set.orders() == HarmonicSet(point.orders).orders()) return PointShift{};

@@ -14,35 +14,13 @@
 namespace microslip::pipelines::test_curve_maps {
 namespace {
 
-constexpr const char* slider = R"toml([model]
-kind = "modal"
-[modal]
-frequency = [20]
-damping_ratio = 0.01
-force_sine = [1]
-output = [1]
-[[modal.points]]
-weight = 1
-tangential_stiffness = 1e4
-normal_stiffness = 5e4
-friction_coefficient = 0.3
-preload = 1
-phi_u_1 = 1
-[response]
-frequency = [15, 25]
-method = "time"
-points = 2
-maps = [15, 20.5, 25]
-map_phases = 4
-)toml";
-
 /// Two motions that no balance of one harmonic has.
 CurveResult integrated() {
   CurveResult result;
-  result.name = "scale_1";
+  result.name = "preload_1";
   result.load = 1.0;
   result.integrated = true;
-  for (const double frequency : {15.0, 25.0}) {
+  for (const double frequency : {0.25, 0.75}) {
     solver::ResponsePoint& point = result.curve.points.emplace_back();
     point.frequency = contact::two_pi * frequency;
     point.q = contact::Harmonics(3, 1);
@@ -55,18 +33,22 @@ CurveResult integrated() {
 
 // Its own motions are drawn; at another frequency there is none, and the message says what to do.
 TEST(CurveMaps, OfMotionsIntegratedInTimeAreTheirs) {
-  const SceneDescription scene = parse_scene(slider, "scene.toml", "/nowhere", {});
+  const SceneDescription scene =
+      read_scene(MICROSLIP_SCENES "/oscillator_1dof.toml",
+                 {"response.frequency=[0.25, 0.75]", "response.points=2",
+                  "response.maps=[0.25, 0.5, 0.75]", "response.map_phases=4"});
   ReducedModel model = reduced_model(scene);
   model.effects = contact_effects(model, scene);
   const CurveMaps drawn = curve_maps(model, scene, integrated());
   ASSERT_EQ(drawn.maps.size(), 2U);
-  EXPECT_EQ(drawn.maps[0].name, "scale_1_15Hz_1");
-  EXPECT_EQ(drawn.maps[1].name, "scale_1_25Hz_1");
-  EXPECT_DOUBLE_EQ(drawn.maps[0].amplitude, 1.5e-3);
-  EXPECT_NEAR(drawn.maps[1].points.relative_displacement(0, 0), 2.5e-3, 1e-15)
+  EXPECT_EQ(drawn.maps[0].name, "preload_1_0.25Hz_1");
+  EXPECT_EQ(drawn.maps[1].name, "preload_1_0.75Hz_1");
+  EXPECT_DOUBLE_EQ(drawn.maps[0].amplitude, 2.5e-5);
+  const double shape = model.patches[0].cells.shapes.u(0, 0);
+  EXPECT_NEAR(drawn.maps[1].points.relative_displacement(0, 0), 7.5e-5 * shape, 1e-12 * shape)
       << "with its harmonics";
   ASSERT_EQ(drawn.missing.size(), 1U);
-  EXPECT_NE(drawn.missing[0].find("no map at 20.5 Hz, where no motion was integrated"),
+  EXPECT_NE(drawn.missing[0].find("no map at 0.5 Hz, where no motion was integrated"),
             std::string::npos)
       << drawn.missing[0];
 }
