@@ -6,10 +6,7 @@
 
 namespace microslip::contact::sampled {
 
-/// Of one vector (pack.hpp).
-inline constexpr std::size_t pack_size = 8;
-/// Enough to hide the time of one operation behind the others.
-inline constexpr std::size_t block_packs = 2;
-inline constexpr std::size_t block_size = pack_size * block_packs;
+/// Two of the widest vectors (pack.hpp): enough to hide the time of one operation behind others.
+inline constexpr std::size_t block_size = 16;
 
 }  // namespace microslip::contact::sampled

@@ -1,6 +1,5 @@
 #include "contact/lanes/line_kernels.hpp"
 
-#include <cmath>
 #include <limits>
 
 #include "contact/lanes/pack.hpp"
@@ -8,86 +7,84 @@
 namespace microslip::contact::sampled {
 namespace {
 
-// GCC knows no root of a vector; eight of them are one instruction all the same.
-MICROSLIP_INLINE Pack square_root(const Pack& x) {
-  Pack result;
-  for (std::size_t i = 0; i < pack_size; ++i) result[i] = std::sqrt(x[i]);
-  return result;
-}
-
 // NOLINTBEGIN(modernize-avoid-c-arrays): a vector type loses its alignment as a template argument.
 
 // Conditions are numbers of which the smaller or the larger is taken: masks that are combined are
 // taken apart number by number by the compiler.
 
-// Rows at a time, so that sums stay in registers.
-constexpr std::size_t tile = 4;
+// Rows at a time, so that sums stay in registers: eight of them.
+template <class Pack>
+constexpr std::size_t tile = 8 / block_packs<Pack>;
 
-template <std::size_t N>
+template <class Pack, std::size_t N>
 MICROSLIP_INLINE void synthesize_tile(std::size_t rows, const double* basis,
                                       const double* coefficients, double* values) {
-  Pack sum[N][block_packs] = {};
+  Pack sum[N][block_packs<Pack>] = {};
   for (std::size_t l = 0; l < rows; ++l) {
-    for (std::size_t b = 0; b < block_packs; ++b) {
-      const Pack c = pack_at(coefficients + l * block_size + b * pack_size);
+    for (std::size_t b = 0; b < block_packs<Pack>; ++b) {
+      const Pack c = pack_at<Pack>(coefficients + l * block_size + b * pack_size<Pack>);
 #pragma GCC unroll 4
       for (std::size_t i = 0; i < N; ++i) sum[i][b] += basis[i * rows + l] * c;
     }
   }
   for (std::size_t i = 0; i < N; ++i) {
-    for (std::size_t b = 0; b < block_packs; ++b) {
-      put_pack(values + i * block_size + b * pack_size, sum[i][b]);
+    for (std::size_t b = 0; b < block_packs<Pack>; ++b) {
+      put_pack(values + i * block_size + b * pack_size<Pack>, sum[i][b]);
     }
   }
 }
 
+template <class Pack>
 MICROSLIP_INLINE void synthesize_all(std::size_t n, std::size_t rows, const double* basis,
                                      const double* coefficients, double* values) {
   std::size_t i = 0;
-  for (; i + tile <= n; i += tile) {
-    synthesize_tile<tile>(rows, basis + i * rows, coefficients, values + i * block_size);
+  for (; i + tile<Pack> <= n; i += tile<Pack>) {
+    synthesize_tile<Pack, tile<Pack>>(rows, basis + i * rows, coefficients,
+                                      values + i * block_size);
   }
   for (; i < n; ++i) {
-    synthesize_tile<1>(rows, basis + i * rows, coefficients, values + i * block_size);
+    synthesize_tile<Pack, 1>(rows, basis + i * rows, coefficients, values + i * block_size);
   }
 }
 
-template <std::size_t N>
+template <class Pack, std::size_t N>
 MICROSLIP_INLINE void analyze_tile(std::size_t n, std::size_t stride, const double* basis,
                                    const double* values, double* sums) {
-  Pack sum[N][block_packs] = {};
+  Pack sum[N][block_packs<Pack>] = {};
   for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t b = 0; b < block_packs; ++b) {
-      const Pack f = pack_at(values + i * block_size + b * pack_size);
+    for (std::size_t b = 0; b < block_packs<Pack>; ++b) {
+      const Pack f = pack_at<Pack>(values + i * block_size + b * pack_size<Pack>);
 #pragma GCC unroll 4
       for (std::size_t k = 0; k < N; ++k) sum[k][b] += basis[i * stride + k] * f;
     }
   }
   for (std::size_t k = 0; k < N; ++k) {
-    for (std::size_t b = 0; b < block_packs; ++b) {
-      put_pack(sums + k * block_size + b * pack_size, sum[k][b]);
+    for (std::size_t b = 0; b < block_packs<Pack>; ++b) {
+      put_pack(sums + k * block_size + b * pack_size<Pack>, sum[k][b]);
     }
   }
 }
 
+template <class Pack>
 MICROSLIP_INLINE void analyze_all(std::size_t n, std::size_t rows, std::size_t stride,
                                   const double* basis, const double* values, double* sums) {
   std::size_t k = 0;
-  for (; k + tile <= rows; k += tile) {
-    analyze_tile<tile>(n, stride, basis + k, values, sums + k * block_size);
+  for (; k + tile<Pack> <= rows; k += tile<Pack>) {
+    analyze_tile<Pack, tile<Pack>>(n, stride, basis + k, values, sums + k * block_size);
   }
-  for (; k < rows; ++k) analyze_tile<1>(n, stride, basis + k, values, sums + k * block_size);
+  for (; k < rows; ++k) analyze_tile<Pack, 1>(n, stride, basis + k, values, sums + k * block_size);
 }
 
+template <class Pack>
 MICROSLIP_INLINE void load_all(std::size_t n, const SmoothArrays& constants, const double* v,
                                double* closeness, double* normal, double* half_width) {
-  for (std::size_t b = 0; b < block_size; b += pack_size) {
-    const Pack rest_load = pack_at(constants.rest_load + b);
-    const Pack stiffness = pack_at(constants.normal_stiffness + b);
-    const Pack ratio = pack_at(constants.compliant_friction + b);
+  for (std::size_t b = 0; b < block_size; b += pack_size<Pack>) {
+    const Pack rest_load = pack_at<Pack>(constants.rest_load + b);
+    const Pack stiffness = pack_at<Pack>(constants.normal_stiffness + b);
+    const Pack ratio = pack_at<Pack>(constants.compliant_friction + b);
     for (std::size_t i = 0; i < n; ++i) {
       const std::size_t at = i * block_size + b;
-      const Pack r = rest_load + stiffness * pack_at(v + at);
+      const Pack r = rest_load + stiffness * pack_at<Pack>(v + at);
       const Pack load = larger(r, Pack{});
       put_pack(closeness + at, r);
       put_pack(normal + at, load);
@@ -98,6 +95,7 @@ MICROSLIP_INLINE void load_all(std::size_t n, const SmoothArrays& constants, con
 
 /// Between two instants, by what is there and by the slopes from their neighbours;
 /// C¹ from one to the next.
+template <class Pack>
 struct Spline {
   Pack begin, slope, square, cube;
 
@@ -119,7 +117,7 @@ struct Spline {
     return square * square - 3.0 * slope * cube;
   }
   [[nodiscard]] MICROSLIP_INLINE Pack top() const {
-    return slope / (square_root(larger(discriminant(), Pack{})) - square);
+    return slope / (root_of(larger(discriminant(), Pack{})) - square);
   }
 };
 
@@ -132,30 +130,36 @@ struct Places {
              (i >= 1 ? i - 1 : n - 1) * block_size + own, i * block_size + own,
              (i + 1 < n ? i + 1 : 0) * block_size + own}};
   }
-  MICROSLIP_INLINE Spline spline(const double* w) const {
-    return Spline::through(pack_at(w + at[0]), pack_at(w + at[1]), pack_at(w + at[2]),
-                           pack_at(w + at[3]));
+  template <class Pack>
+  [[nodiscard]] MICROSLIP_INLINE Spline<Pack> spline(const double* w) const {
+    return Spline<Pack>::through(pack_at<Pack>(w + at[0]), pack_at<Pack>(w + at[1]),
+                                 pack_at<Pack>(w + at[2]), pack_at<Pack>(w + at[3]));
   }
 };
 
 /// u + ratio r: an end of the band, which extended by r < 0 is smooth where contact opens and
 /// closes.
-MICROSLIP_INLINE Spline end_of_band(const Spline& u, const Spline& r, const Pack& ratio) {
+template <class Pack>
+MICROSLIP_INLINE Spline<Pack> end_of_band(const Spline<Pack>& u, const Spline<Pack>& r,
+                                          const Pack& ratio) {
   return {u.begin + ratio * r.begin, u.slope + ratio * r.slope, u.square + ratio * r.square,
           u.cube + ratio * r.cube};
 }
 
-MICROSLIP_INLINE Spline turned_over(const Spline& w) {
+template <class Pack>
+MICROSLIP_INLINE Spline<Pack> turned_over(const Spline<Pack>& w) {
   return {-w.begin, -w.slope, -w.square, -w.cube};
 }
 
+template <class Pack>
 struct Top {
   Pack place;   // of the step; 2: none in it
   Pack height;  // there
 };
 
 /// In contact.
-MICROSLIP_INLINE Top top_of(const Spline& w, const Spline& r) {
+template <class Pack>
+MICROSLIP_INLINE Top<Pack> top_of(const Spline<Pack>& w, const Spline<Pack>& r) {
   const Pack none = Pack{} + 2.0;
   const Pack end = w.slope_at(Pack{} + 1.0);
   const Pack top = w.top();
@@ -171,7 +175,8 @@ MICROSLIP_INLINE Top top_of(const Spline& w, const Spline& r) {
 }
 
 /// u where r rises through zero in the step.
-MICROSLIP_INLINE Pack landing(const Spline& u, const Spline& r, const Pack& way) {
+template <class Pack>
+MICROSLIP_INLINE Pack landing(const Spline<Pack>& u, const Spline<Pack>& r, const Pack& way) {
   const Pack one = Pack{} + 1.0;
   Pack x = -r.begin / way;
   for (int i = 0; i < 2; ++i) {
@@ -181,22 +186,22 @@ MICROSLIP_INLINE Pack landing(const Spline& u, const Spline& r, const Pack& way)
   return u.at(x);
 }
 
-template <bool touches>
+template <class Pack, bool touches>
 MICROSLIP_INLINE void band_of(std::size_t n, const SmoothArrays& constants, const double* u,
                               const double* closeness, const double* half_width,
                               const TurningBand& band) {
   const Pack far = Pack{} + std::numeric_limits<double>::max();
-  for (std::size_t b = 0; b < block_size; b += pack_size) {
-    const Pack ratio = pack_at(constants.compliant_friction + b);
+  for (std::size_t b = 0; b < block_size; b += pack_size<Pack>) {
+    const Pack ratio = pack_at<Pack>(constants.compliant_friction + b);
     for (std::size_t i = 0; i < n; ++i) {
       const Places places = Places::of(i, n, b);
       const std::size_t at = places.at[2];
-      const Spline position = places.spline(u);
-      const Spline r = places.spline(closeness);
-      const Top up = top_of(end_of_band(position, r, -ratio), r);
-      const Top down = top_of(turned_over(end_of_band(position, r, ratio)), r);
-      const Pack here = pack_at(u + at);
-      const Pack g = pack_at(half_width + at);
+      const Spline<Pack> position = places.spline<Pack>(u);
+      const Spline<Pack> r = places.spline<Pack>(closeness);
+      const Top<Pack> up = top_of(end_of_band(position, r, -ratio), r);
+      const Top<Pack> down = top_of(turned_over(end_of_band(position, r, ratio)), r);
+      const Pack here = pack_at<Pack>(u + at);
+      const Pack g = pack_at<Pack>(half_width + at);
       const Pack up_turns = up.place < 1.5 ? Pack{} + 1.0 : Pack{};
       const Pack down_turns = down.place < 1.5 ? Pack{} + 2.0 : Pack{};
       const Pack both = up_turns + down_turns;
@@ -210,7 +215,7 @@ MICROSLIP_INLINE void band_of(std::size_t n, const SmoothArrays& constants, cons
       put_pack(band.high + at, turn > Pack{} ? W : here + g);
       put_pack(band.turns + at, turn);
       if constexpr (touches) {
-        const Pack now = pack_at(closeness + at);
+        const Pack now = pack_at<Pack>(closeness + at);
         const Pack closes = smaller(now, r.begin <= Pack{} ? Pack{} + 1.0 : Pack{});
         put_pack(band.landed + at, closes > Pack{} ? landing(position, r, now - r.begin) : -far);
       }
@@ -218,31 +223,34 @@ MICROSLIP_INLINE void band_of(std::size_t n, const SmoothArrays& constants, cons
   }
 }
 
+template <class Pack>
 MICROSLIP_INLINE void turning_band_all(std::size_t n, const SmoothArrays& constants,
                                        const double* u, const double* closeness,
                                        const double* half_width, const TurningBand& band,
                                        bool touches) {
-  touches ? band_of<true>(n, constants, u, closeness, half_width, band)
-          : band_of<false>(n, constants, u, closeness, half_width, band);
+  touches ? band_of<Pack, true>(n, constants, u, closeness, half_width, band)
+          : band_of<Pack, false>(n, constants, u, closeness, half_width, band);
 }
 
+template <class Pack>
 MICROSLIP_INLINE void friction_all(std::size_t n, const SmoothArrays& constants, const double* u,
                                    const double* slider, double* friction) {
-  for (std::size_t b = 0; b < block_size; b += pack_size) {
-    const Pack stiffness = pack_at(constants.tangential_stiffness + b);
+  for (std::size_t b = 0; b < block_size; b += pack_size<Pack>) {
+    const Pack stiffness = pack_at<Pack>(constants.tangential_stiffness + b);
     for (std::size_t i = 0; i < n; ++i) {
       const std::size_t at = i * block_size + b;
-      put_pack(friction + at, stiffness * (pack_at(u + at) - pack_at(slider + at)));
+      put_pack(friction + at, stiffness * (pack_at<Pack>(u + at) - pack_at<Pack>(slider + at)));
     }
   }
 }
 
+template <class Pack>
 MICROSLIP_INLINE void range_all(std::size_t n, const double* values, double* least, double* most) {
-  for (std::size_t b = 0; b < block_size; b += pack_size) {
-    Pack low = pack_at(values + b);
+  for (std::size_t b = 0; b < block_size; b += pack_size<Pack>) {
+    Pack low = pack_at<Pack>(values + b);
     Pack high = low;
     for (std::size_t i = 1; i < n; ++i) {
-      const Pack x = pack_at(values + i * block_size + b);
+      const Pack x = pack_at<Pack>(values + i * block_size + b);
       low = smaller(low, x);
       high = larger(high, x);
     }
@@ -259,44 +267,46 @@ struct Pass {
 };
 
 /// The slider before a step, of points that close in it where they do.
-template <bool turns>
+template <class Pack, bool turns>
 MICROSLIP_INLINE Pack start_of_step(const LineArrays& a, std::size_t i, std::size_t own,
                                     const Pack& s) {
   const std::size_t at = i * block_size + own;
   if constexpr (turns) {
-    const Pack landed = pack_at(a.landed + at);
+    const Pack landed = pack_at<Pack>(a.landed + at);
     return landed > Pack{} - std::numeric_limits<double>::max() ? landed : s;
   } else {
     const std::size_t before = (i > 0 ? i - 1 : a.n_instants - 1) * block_size + own;
-    const Pack r0 = pack_at(a.closeness + before);
-    const Pack r = pack_at(a.closeness + at);
+    const Pack r0 = pack_at<Pack>(a.closeness + before);
+    const Pack r = pack_at<Pack>(a.closeness + at);
     const Pack closes = smaller(r, r0 <= Pack{} ? Pack{} + 1.0 : Pack{});
-    const Pack u0 = pack_at(a.u + before);
-    const Pack landed = u0 - r0 / (r - r0) * (pack_at(a.u + at) - u0);
+    const Pack u0 = pack_at<Pack>(a.u + before);
+    const Pack landed = u0 - r0 / (r - r0) * (pack_at<Pack>(a.u + at) - u0);
     return closes > Pack{} ? landed : s;
   }
 }
 
+template <class Pack>
 MICROSLIP_INLINE Pack slip_state(const Pack& start, const Pack& low, const Pack& high) {
   const Pack positive = start < low ? Pack{} + 1.0 : Pack{};
   const Pack negative = start > high ? Pack{} + 2.0 : Pack{};
   return positive + negative;
 }
 
-template <Pass kind>
+template <class Pack, Pass kind>
 MICROSLIP_INLINE void pass(const LineArrays& a, Pack* s) {
   for (std::size_t i = 0; i < a.n_instants; ++i) {
-    for (std::size_t b = 0; b < block_packs; ++b) {
-      const std::size_t at = i * block_size + b * pack_size;
+    for (std::size_t b = 0; b < block_packs<Pack>; ++b) {
+      const std::size_t at = i * block_size + b * pack_size<Pack>;
       Pack start = s[b];
-      if constexpr (kind.touches) start = start_of_step<kind.turns>(a, i, b * pack_size, start);
-      const Pack low = pack_at(a.low + at);
-      const Pack high = pack_at(a.high + at);
+      if constexpr (kind.touches)
+        start = start_of_step<Pack, kind.turns>(a, i, b * pack_size<Pack>, start);
+      const Pack low = pack_at<Pack>(a.low + at);
+      const Pack high = pack_at<Pack>(a.high + at);
       Pack state;
       if constexpr (kind.turns) {
-        const Pack turn = pack_at(a.turns + at);
-        const Pack u = pack_at(a.u + at);
-        const Pack g = pack_at(a.half_width + at);
+        const Pack turn = pack_at<Pack>(a.turns + at);
+        const Pack u = pack_at<Pack>(a.u + at);
+        const Pack g = pack_at<Pack>(a.half_width + at);
         const Pack low_first = smaller(larger(start, low), high);
         const Pack high_first = larger(smaller(start, high), low);
         const Pack moved_on = turn > 3.5 ? high_first : low_first;
@@ -311,25 +321,26 @@ MICROSLIP_INLINE void pass(const LineArrays& a, Pack* s) {
         state = slip_state(start, low, high);
       }
       if constexpr (kind.last) {
-        put_pack(a.state + at, pack_at(a.closeness + at) > Pack{} ? state : Pack{} + 3.0);
+        put_pack(a.state + at, pack_at<Pack>(a.closeness + at) > Pack{} ? state : Pack{} + 3.0);
         put_pack(a.slider + at, s[b]);
       }
     }
   }
 }
 
-template <bool touches, bool turns>
+template <class Pack, bool touches, bool turns>
 MICROSLIP_INLINE void two_periods(const LineArrays& arrays) {
-  Pack s[block_packs] = {};
-  pass<Pass{touches, turns, false}>(arrays, s);
-  pass<Pass{touches, turns, true}>(arrays, s);
+  Pack s[block_packs<Pack>] = {};
+  pass<Pack, Pass{touches, turns, false}>(arrays, s);
+  pass<Pack, Pass{touches, turns, true}>(arrays, s);
 }
 
+template <class Pack>
 MICROSLIP_INLINE void march_all(const LineArrays& arrays, bool touches) {
   if (arrays.turns == nullptr) {
-    touches ? two_periods<true, false>(arrays) : two_periods<false, false>(arrays);
+    touches ? two_periods<Pack, true, false>(arrays) : two_periods<Pack, false, false>(arrays);
   } else {
-    touches ? two_periods<true, true>(arrays) : two_periods<false, true>(arrays);
+    touches ? two_periods<Pack, true, true>(arrays) : two_periods<Pack, false, true>(arrays);
   }
 }
 
@@ -337,46 +348,47 @@ MICROSLIP_INLINE void march_all(const LineArrays& arrays, bool touches) {
 
 // NOLINTBEGIN(bugprone-macro-parentheses): an attribute cannot stand in parentheses.
 // The bodies above take on the target of the function they are inlined into.
-#define MICROSLIP_KERNELS(name, attribute)                                                        \
+#define MICROSLIP_KERNELS(name, width, attribute)                                                 \
   struct name {                                                                                   \
+    using Pack = Lanes<width>::Vector;                                                            \
     attribute static void synthesize(std::size_t n, std::size_t rows, const double* basis,        \
                                      const double* c, double* values) {                           \
-      synthesize_all(n, rows, basis, c, values);                                                  \
+      synthesize_all<Pack>(n, rows, basis, c, values);                                            \
     }                                                                                             \
     attribute static void analyze(std::size_t n, std::size_t rows, std::size_t stride,            \
                                   const double* basis, const double* values, double* sums) {      \
-      analyze_all(n, rows, stride, basis, values, sums);                                          \
+      analyze_all<Pack>(n, rows, stride, basis, values, sums);                                    \
     }                                                                                             \
     attribute static void load(std::size_t n, const SmoothArrays& constants, const double* v,     \
                                double* closeness, double* normal, double* half_width) {           \
-      load_all(n, constants, v, closeness, normal, half_width);                                   \
+      load_all<Pack>(n, constants, v, closeness, normal, half_width);                             \
     }                                                                                             \
     attribute static void turning_band(std::size_t n, const SmoothArrays& constants,              \
                                        const double* u, const double* closeness,                  \
                                        const double* half_width, const TurningBand& band,         \
                                        bool touches) {                                            \
-      turning_band_all(n, constants, u, closeness, half_width, band, touches);                    \
+      turning_band_all<Pack>(n, constants, u, closeness, half_width, band, touches);              \
     }                                                                                             \
     attribute static void march(const LineArrays& arrays, bool touches) {                         \
-      march_all(arrays, touches);                                                                 \
+      march_all<Pack>(arrays, touches);                                                           \
     }                                                                                             \
     attribute static void friction(std::size_t n, const SmoothArrays& constants, const double* u, \
                                    const double* slider, double* result) {                        \
-      friction_all(n, constants, u, slider, result);                                              \
+      friction_all<Pack>(n, constants, u, slider, result);                                        \
     }                                                                                             \
     attribute static void range(std::size_t n, const double* values, double* least,               \
                                 double* most) {                                                   \
-      range_all(n, values, least, most);                                                          \
+      range_all<Pack>(n, values, least, most);                                                    \
     }                                                                                             \
     static constexpr LineKernels all{synthesize, analyze,  load, turning_band,                    \
                                      march,      friction, range};                                \
   };
 // NOLINTEND(bugprone-macro-parentheses)
 
-MICROSLIP_KERNELS(PlainKernels, )
+MICROSLIP_KERNELS(PlainKernels, 2, )
 #if defined(__x86_64__)
-MICROSLIP_KERNELS(Avx2Kernels, [[gnu::target("avx2,fma")]])
-MICROSLIP_KERNELS(Avx512Kernels, [[gnu::target("avx512f,fma")]])
+MICROSLIP_KERNELS(Avx2Kernels, 4, [[gnu::target("avx2,fma")]])
+MICROSLIP_KERNELS(Avx512Kernels, 8, [[gnu::target("avx512f,fma")]])
 constexpr const LineKernels* avx2 = &Avx2Kernels::all;
 constexpr const LineKernels* avx512 = &Avx512Kernels::all;
 #else

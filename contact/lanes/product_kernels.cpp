@@ -7,7 +7,7 @@ namespace {
 
 // NOLINTBEGIN(modernize-avoid-c-arrays): a vector type loses its alignment as a template argument.
 
-template <std::size_t S>
+template <class Pack, std::size_t S>
 MICROSLIP_INLINE void spread_signals(std::size_t n_modes, std::size_t n_rows,
                                      const std::array<const double*, 3>& J,
                                      const std::array<std::vector<double>, 3>& phi, double* y) {
@@ -15,21 +15,22 @@ MICROSLIP_INLINE void spread_signals(std::size_t n_modes, std::size_t n_rows,
   const double* shape_1 = phi[1].data();
   const double* shape_2 = phi[2].data();
   for (std::size_t m = 0; m < n_modes; ++m, y += n_rows) {
-    for (std::size_t l = 0; l < n_rows; l += pack_size) {
-      Pack sum = shape_0[m] * pack_at(J[0] + l) + shape_1[m] * pack_at(J[1] + l);
-      if constexpr (S == 3) sum += shape_2[m] * pack_at(J[2] + l);
+    for (std::size_t l = 0; l < n_rows; l += pack_size<Pack>) {
+      Pack sum = shape_0[m] * pack_at<Pack>(J[0] + l) + shape_1[m] * pack_at<Pack>(J[1] + l);
+      if constexpr (S == 3) sum += shape_2[m] * pack_at<Pack>(J[2] + l);
       put_pack(y + l, sum);
     }
   }
 }
 
+template <class Pack>
 MICROSLIP_INLINE void spread_all(std::size_t n_signals, std::size_t n_modes, std::size_t n_rows,
                                  const std::array<const double*, 3>& J,
                                  const std::array<std::vector<double>, 3>& phi, double* y) {
   if (n_signals == 2) {
-    spread_signals<2>(n_modes, n_rows, J, phi, y);
+    spread_signals<Pack, 2>(n_modes, n_rows, J, phi, y);
   } else {
-    spread_signals<3>(n_modes, n_rows, J, phi, y);
+    spread_signals<Pack, 3>(n_modes, n_rows, J, phi, y);
   }
 }
 
@@ -81,7 +82,7 @@ MICROSLIP_INLINE void product_all(const ProductSizes& size, std::size_t n, const
     attribute static void spread(std::size_t n_signals, std::size_t n_modes, std::size_t n_rows, \
                                  const std::array<const double*, 3>& J,                          \
                                  const std::array<std::vector<double>, 3>& phi, double* y) {     \
-      spread_all(n_signals, n_modes, n_rows, J, phi, y);                                         \
+      spread_all<Lanes<width>::Vector>(n_signals, n_modes, n_rows, J, phi, y);                   \
     }                                                                                            \
     attribute static void product(const ProductSizes& size, std::size_t n, const double* phi,    \
                                   const double* y, double* sum) {                                \

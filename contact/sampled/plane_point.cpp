@@ -34,7 +34,7 @@ void PlaneDerivatives::reset(const Instants& instants) {
   for (std::size_t d = 0; d < 2; ++d) {
     stick_[d].resize(instants.n_moments());
     limit_[d].resize(instants.n_moments());
-    for (Row& part : by_[d]) part.resize(rows * rows + pack_size);  // products read on behind
+    for (Row& part : by_[d]) part.resize(rows * rows + product_slack);  // read on behind
     by_frequency_[d].resize(rows);
   }
   normal_.resize(instants.n_moments());
