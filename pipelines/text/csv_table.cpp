@@ -1,10 +1,16 @@
 #include "pipelines/text/csv_table.hpp"
 
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <charconv>
 #include <cmath>
-#include <fstream>
 #include <set>
+#include <span>
 #include <system_error>
 #include <utility>
 
@@ -53,6 +59,62 @@ std::vector<std::string_view> cells_of(std::string_view line) {
   return cells;
 }
 
+struct Comment {
+  std::string_view text;
+  std::size_t line = 0;
+};
+
+bool is_number(std::string_view cell) {
+  double value = 0.0;
+  const char* begin = cell.data() + (cell.starts_with('+') ? 1 : 0);
+  return std::from_chars(begin, cell.data() + cell.size(), value).ec == std::errc();
+}
+
+/// numpy.savetxt writes names as a comment: names are no numbers.
+bool is_row_under(const Comment& comment, const std::vector<std::string_view>& cells) {
+  return comment.line > 0 && cells.size() == cells_of(comment.text).size() &&
+         std::ranges::any_of(cells, is_number);
+}
+
+/// Opened without waiting: of a pipe that nobody writes to there is no end.
+class InputFile {
+ public:
+  explicit InputFile(const std::filesystem::path& file)
+      : name_(file.string()), descriptor_(open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {
+    if (descriptor_ < 0) throw cannot_be_read();
+    std::error_code error;
+    if (std::filesystem::is_fifo(file, error)) await_writer();
+    static_cast<void>(fcntl(descriptor_, F_SETFL, 0));
+  }
+  ~InputFile() { close(descriptor_); }
+  InputFile(const InputFile&) = delete;
+  InputFile& operator=(const InputFile&) = delete;
+
+  /// @return  the number of bytes; 0: the end.
+  std::size_t read(std::span<char> to) {
+    ssize_t n = -1;
+    do n = ::read(descriptor_, to.data(), to.size());
+    while (n < 0 && errno == EINTR);
+    if (n < 0) throw cannot_be_read();
+    return static_cast<std::size_t>(n);
+  }
+
+ private:
+  void await_writer() const {
+    constexpr int longest_wait = 1000;  // ms
+    pollfd asked{descriptor_, POLLIN, 0};
+    if (poll(&asked, 1, longest_wait) != 0) return;
+    close(descriptor_);
+    throw SceneError(fmt::format("{}: a pipe that nobody writes to", name_));
+  }
+  [[nodiscard]] SceneError cannot_be_read() const {
+    return SceneError(fmt::format("{}: cannot be read", name_));
+  }
+
+  std::string name_;
+  int descriptor_;
+};
+
 }  // namespace
 
 std::string read_text(const std::filesystem::path& file, std::uintmax_t limit) {
@@ -68,12 +130,11 @@ std::string read_text(const std::filesystem::path& file, std::uintmax_t limit) {
   if (!error && size > limit) {
     throw SceneError(fmt::format("{}: {} bytes; at most {} are read", file.string(), size, limit));
   }
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw SceneError(fmt::format("{}: cannot be read", file.string()));
+  InputFile input(file);
   std::string content;  // a pipe does not know its size beforehand
   std::array<char, 65536> part{};
-  while (stream.read(part.data(), part.size()) || stream.gcount() > 0) {
-    const std::string_view read(part.data(), static_cast<std::size_t>(stream.gcount()));
+  while (const std::size_t n = input.read(part)) {
+    const std::string_view read(part.data(), n);
     content.append(read);
     if (read.find('\0') != std::string_view::npos) {  // told before a large file is read whole
       throw SceneError(
@@ -85,7 +146,6 @@ std::string read_text(const std::filesystem::path& file, std::uintmax_t limit) {
           fmt::format("{}: more than the {} bytes that are read at most", file.string(), limit));
     }
   }
-  if (stream.bad()) throw SceneError(fmt::format("{}: cannot be read", file.string()));
   if (content.starts_with("\xEF\xBB\xBF")) content.erase(0, 3);
   return content;
 }
@@ -100,6 +160,7 @@ CsvTable CsvTable::parse(std::string_view text, const std::string& name, Tiny ti
   table.name_ = name;
   std::size_t line_number = 0;
   std::optional<std::size_t> id_column;
+  Comment comment;  // the last one before the rows
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     const std::string_view line = trimmed_cell(text.substr(begin, end - begin));
@@ -109,8 +170,16 @@ CsvTable CsvTable::parse(std::string_view text, const std::string& name, Tiny ti
       throw SceneError(fmt::format("{}:{}: a line of {} bytes; at most {} are read", name,
                                    line_number, line.size(), longest_line));
     }
-    if (line.empty() || line.front() == '#') continue;
+    if (line.empty()) continue;
+    if (line.front() == '#') {
+      if (table.columns_.empty()) comment = {trimmed_cell(line.substr(1)), line_number};
+      continue;
+    }
     const auto cells = cells_of(line);
+    if (table.columns_.empty() && is_row_under(comment, cells)) {
+      table.read_header(cells_of(comment.text), comment.line);
+      id_column = table.find("id");
+    }
     if (table.columns_.empty()) {
       table.read_header(cells, line_number);
       id_column = table.find("id");

@@ -1,5 +1,6 @@
 /// @file
-/// Tables of numbers as users give them: a header with names, then rows of numbers.
+/// Tables of numbers as users give them: a header with names, then rows of numbers. Lines that
+/// begin with # are comments; the last one before the rows is the header where they have none.
 #pragma once
 
 #include <cstdint>
@@ -69,7 +70,8 @@ class CsvTable {
                                          const std::vector<std::string_view>& known);
 
 /// Content of a text file without a byte-order mark.
-/// @throws SceneError  missing, unreadable, or larger than `limit` bytes.
+/// @throws SceneError  missing, unreadable, larger than `limit` bytes,
+///                     or a pipe to which nobody writes for a second.
 [[nodiscard]] std::string read_text(const std::filesystem::path& file, std::uintmax_t limit);
 
 }  // namespace microslip::pipelines

@@ -55,11 +55,20 @@ class PlateScenes(unittest.TestCase):
         print(f"{' '.join([scene, *settings])}: peaks of {', '.join(found)} differ by {worst:.1e}")
         self.assertLess(worst, tolerance)
 
+    @staticmethod
+    def commented_table():
+        """As numpy.savetxt writes names: behind a #, below a line of its own."""
+        place = os.path.join(os.path.abspath(WORK), "commented.csv")
+        with open(os.path.join(plate_files.PLATE, "plate.csv"), encoding="ascii") as table, open(place, "w", encoding="ascii") as commented:
+            commented.write("# modes of a plate\n# " + table.read())
+        return place
+
     def test_numpy_table_and_med(self):
         expected = peaks("plate_calculix")
         self.assertEqual(len(expected), 5)
         self.compare("plate_numpy", expected, DOUBLES)
         self.compare("plate_table", expected, DOUBLES)
+        self.compare("plate_table", expected, DOUBLES, f"model.file={self.commented_table()}")
         if importlib.util.find_spec("h5py") is None:
             self.skipTest("h5py is not installed: .med cannot be read")
         self.compare("plate_med", expected, DOUBLES)
