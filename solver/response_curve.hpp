@@ -38,6 +38,9 @@ struct BranchSlope {
   double phase = 0.0;      ///< d(phase)/dω [s]
 };
 
+/// Harmonics that may do anything are left out: one may resonate somewhere along the curve.
+inline constexpr double all_left_out = 1.0;
+
 struct ResponsePoint {
   double frequency = 0.0;   ///< ω [rad/s]
   Harmonics q;              ///< [m√kg]

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -37,6 +38,14 @@ struct RicherPeak {
 [[nodiscard]] std::optional<RicherPeak> richer_peak(const Scene& scene,
                                                     const ContinuationOptions& range,
                                                     const ResponseCurve& curve, int highest);
+
+/// Harmonics beyond those of a curve that may resonate with a mode somewhere along it, up to the
+/// highest: with them it may have another peak there, higher than its own.
+/// @param share  of the curve's largest motion and amplitude: what moves less is not named.
+[[nodiscard]] std::vector<int> resonant_harmonics(const Scene& scene,
+                                                  const ContinuationOptions& range,
+                                                  const ResponseCurve& curve, int highest,
+                                                  double share);
 
 /// The options with the harmonics that points of the curve have: they may have been chosen.
 [[nodiscard]] ContinuationOptions with_harmonics_of(const Scene& scene,

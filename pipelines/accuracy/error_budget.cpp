@@ -207,19 +207,17 @@ void add_marks(CurveBudget& budget, const ReducedModel& model, const RicherModel
                          ErrorKind::estimated, seconds});
 }
 
-/// Of a choice that did not end: told at all, and so small that the peak keeps its frequency.
-bool is_small_part(double left_out) {
-  constexpr double most = 0.1;
-  return left_out > 0.0 && left_out < most;
-}
-
 /// Given harmonics have been solved with more; of chosen ones the peak knows what is left out.
 /// @param is_told  the curve was solved with chosen harmonics,
 ///                 or more of them are known to do nothing.
 void add_harmonics(CurveBudget& budget, const CurveResult& result,
                    const solver::ResponsePoint& peak, bool is_told) {
   const solver::SettledPeak& settled = result.curve.settled_peak;
-  if (!result.richer && settled.amplitude > 0.0) {
+  const bool is_open =  // another place may be highest than the one that was asked
+      is_unsettled(result.curve) && peak.harmonics_left_out >= solver::all_left_out;
+  if (!result.richer && is_open) {
+    budget.unknown.emplace_back("harmonics");
+  } else if (!result.richer && settled.amplitude > 0.0) {
     GoalEffects change =
         changes(budget, peak, {settled.amplitude, settled.frequency, settled.dissipated_energy});
     const GoalEffects beyond = of_amplitude_alone(budget, settled.left_out);
@@ -228,8 +226,7 @@ void add_harmonics(CurveBudget& budget, const CurveResult& result,
     add_rows(budget, result.name, "harmonics", change, ErrorKind::solved, 0.0);
   } else if (!result.richer && !is_told) {
     budget.unknown.emplace_back("harmonics");
-  } else if (!result.richer && is_unsettled(result.curve) &&
-             !is_small_part(peak.harmonics_left_out)) {
+  } else if (!result.richer && !is_left_out_known(result.curve, peak.harmonics_left_out)) {
     budget.unknown.emplace_back("harmonics");
   } else if (!result.richer) {
     add_rows(budget, result.name, "harmonics", of_amplitude_alone(budget, peak.harmonics_left_out),
@@ -327,12 +324,6 @@ const ErrorRow* largest_row(const std::vector<CurveBudget>& budgets, const std::
 }
 
 }  // namespace
-
-bool is_unsettled(const solver::ResponseCurve& curve) {
-  return std::ranges::any_of(curve.log, [](const solver::SolverEvent& event) {
-    return event.remedy == solver::Remedy::harmonics_kept;
-  });
-}
 
 CurveBudget with_harmonics_of(CurveBudget before, const CurveBudget& now) {
   before.along = now.along;

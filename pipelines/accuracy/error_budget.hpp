@@ -38,9 +38,6 @@ struct CurveBudget {
 [[nodiscard]] CurveBudget error_budget(const ReducedModel& model, const SceneDescription& scene,
                                        const RicherModels& richer, const CurveResult& result);
 
-/// The choice of its harmonics was cut short, or did not end.
-[[nodiscard]] bool is_unsettled(const solver::ResponseCurve& curve);
-
 /// What harmonics beyond its own move a curve by, all along (solver/point_shift.hpp).
 /// @return sizes, one for each point; empty of a linear limit, and where nothing could be told.
 [[nodiscard]] std::vector<solver::PointShift> harmonics_along(ReducedModel model,

@@ -1,6 +1,7 @@
 #include "pipelines/response/effects_of_curves.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <set>
 
@@ -22,9 +23,11 @@ void tell_harmonics(const SceneDescription& scene, const std::vector<CurveSummar
   std::set<int> orders;
   std::size_t most = 0;
   double left_out = 0.0;
+  bool is_known = true;
   for (const CurveSummary& curve : curves) {
     orders.insert(curve.harmonic_orders.begin(), curve.harmonic_orders.end());
     most = std::max(most, curve.most_harmonics);
+    is_known = is_known && std::isfinite(curve.largest_left_out);
     left_out = std::max(left_out, curve.largest_left_out);
   }
   if (orders.empty()) return;
@@ -36,9 +39,11 @@ void tell_harmonics(const SceneDescription& scene, const std::vector<CurveSummar
     return;
   }
   effect.simulated = *orders.rbegin() > 1 ? Simulated::yes : Simulated::no;
-  effect.reason =
-      fmt::format("{}: {}, of the orders {}; those left out change them by {:.2g} % at most",
-                  harmonics_text(scene), most, fmt::join(orders, ", "), 100.0 * left_out);
+  effect.reason = fmt::format("{}: {}, of the orders {}; ", harmonics_text(scene), most,
+                              fmt::join(orders, ", "));
+  effect.reason +=
+      is_known ? fmt::format("those left out change them by {:.2g} % at most", 100.0 * left_out)
+               : "what those left out change is not known: the choice did not come to its end";
 }
 
 void tell_nonlinearity(const std::vector<CurveSummary>& curves, EffectRecord& effect) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,7 @@
 #include "pipelines/response/solver_scenes.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/interrupt.hpp"
+#include "solver/continuation.hpp"
 
 namespace microslip::pipelines {
 int harmonics_to_check(const ReducedModel& model, const SceneDescription& scene) {
@@ -24,6 +26,15 @@ int harmonics_to_check(const ReducedModel& model, const SceneDescription& scene)
 
 namespace {
 
+/// For the peak with more harmonics.
+void take(const solver::ResponsePoint& peak, CurveResult& result) {
+  solver::RicherPeak& richer = *result.richer;
+  richer.frequency = peak.frequency;
+  richer.amplitude = peak.amplitude;
+  richer.dissipated_energy = peak.energy.friction;
+  richer.change = 1.0 - highest_peak(result.curve)->amplitude / peak.amplitude;
+}
+
 /// Where the peak with more harmonics is too far for Newton's method.
 void trace_about_peak(const ReducedModel& model, double load,
                       const solver::ContinuationOptions& options, CurveResult& result) {
@@ -33,10 +44,31 @@ void trace_about_peak(const ReducedModel& model, double load,
   const auto peak = peak_about(model, load, options, own.frequency);
   richer.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (!peak || peak->amplitude < solver::another_peak * own.amplitude) return;
-  richer.frequency = peak->frequency;
-  richer.amplitude = peak->amplitude;
-  richer.dissipated_energy = peak->energy.friction;
-  richer.change = 1.0 - own.amplitude / peak->amplitude;
+  take(*peak, result);
+}
+
+/// Next to a resonance of a harmonic that was not given the curve may be highest elsewhere.
+void trace_resonances(const solver::Scene& scene, solver::ContinuationOptions options, int highest,
+                      CurveResult& result) {
+  constexpr double worth_a_curve = 0.05;  // of the amplitude
+  solver::RicherPeak& richer = *result.richer;
+  const std::vector<int> more =
+      solver::resonant_harmonics(scene, options, result.curve, highest, worth_a_curve);
+  if (more.empty()) return;
+  const auto begin = std::chrono::steady_clock::now();
+  options = solver::with_harmonics_of(scene, options, result.curve);
+  options.orders.insert(options.orders.end(), more.begin(), more.end());
+  std::ranges::sort(options.orders);
+  options.n_harmonics = options.orders.back();
+  options.search_starts = 0;
+  options.judge_stability = false;
+  const auto goes_on = [&options](const auto&) { return !(options.stop && options.stop()); };
+  const solver::ResponseCurve curve = solver::trace_response(scene, options, goes_on);
+  richer.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (!curve.complete) richer.change.reset();
+  if (curve.points.empty()) return;
+  const solver::ResponsePoint& peak = *highest_peak(curve);
+  if (richer.change && peak.amplitude > richer.amplitude) take(peak, result);
 }
 
 }  // namespace
@@ -53,12 +85,15 @@ void check_harmonics(ReducedModel model, const SceneDescription& scene, double l
   solver::ContinuationOptions options = continuation_options(scene, model);
   options.stop = [&stop, others = options.stop] { return stop() || others(); };
   result.richer = solver::richer_peak(solver_scene(model, load), options, curve, highest);
+  const solver::ContinuationOptions asked = options;
   const bool missed = result.richer && !result.richer->change;
   if (missed && options.frequency_begin != options.frequency_end) {
     options.n_harmonics = highest;
     options.orders.clear();
     trace_about_peak(model, load, options, result);
   }
+  const bool is_found = result.richer && result.richer->change;
+  if (is_found) trace_resonances(solver_scene(model, load), asked, highest, result);
   if (result.richer && !result.richer->change && options.stop()) {
     result.richer.reset();  // not known, which is another thing than not found
     curve.message += fmt::format("{}stopped before its harmonics were checked",

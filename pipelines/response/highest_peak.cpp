@@ -25,4 +25,15 @@ const solver::ResponsePoint* peak_above_all(const solver::ResponseCurve& curve) 
   return is_above ? peak : nullptr;
 }
 
+bool is_unsettled(const solver::ResponseCurve& curve) {
+  return std::ranges::any_of(curve.log, [](const solver::SolverEvent& event) {
+    return event.remedy == solver::Remedy::harmonics_kept;
+  });
+}
+
+bool is_left_out_known(const solver::ResponseCurve& curve, double left_out) {
+  constexpr double most = 0.1;
+  return !is_unsettled(curve) || (left_out > 0.0 && left_out < most);
+}
+
 }  // namespace microslip::pipelines

@@ -13,4 +13,11 @@ namespace microslip::pipelines {
 /// moved out. nullptr: it has, or none was solved for.
 [[nodiscard]] const solver::ResponsePoint* peak_above_all(const solver::ResponseCurve& curve);
 
+/// The choice of its harmonics did not come to its end.
+[[nodiscard]] bool is_unsettled(const solver::ResponseCurve& curve);
+
+/// Whether what chosen harmonics leave out at a point is known: an unsettled choice tells it where
+/// it was asked and is so small that the peak keeps its frequency.
+[[nodiscard]] bool is_left_out_known(const solver::ResponseCurve& curve, double left_out);
+
 }  // namespace microslip::pipelines

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "pipelines/response/highest_peak.hpp"
+
 namespace microslip::pipelines {
 namespace {
 
@@ -55,6 +57,9 @@ CurveSummary summarise(const CurveResult& result) {
   summary.state_cuts = result.curve.state_cuts;
   summary.seconds = result.curve.seconds;
   for (const solver::ResponsePoint& point : result.curve.points) add_point(summary, point);
+  if (!result.richer && !is_left_out_known(result.curve, summary.largest_left_out)) {
+    summary.largest_left_out = std::numeric_limits<double>::quiet_NaN();
+  }
   const auto highest = std::ranges::max_element(summary.peaks, {}, &PeakSummary::amplitude);
   if (highest != summary.peaks.end()) {
     summary.peak = *highest;

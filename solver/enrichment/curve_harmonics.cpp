@@ -128,10 +128,16 @@ void tell_peak_beside(const SettledPeak& found, double tolerance, ResponseCurve&
   curve.message += text.str();
 }
 
-void note_unsettled(ResponseCurve& curve) {
+/// @param resonates  one that is left out, somewhere along the curve: it may do anything.
+void note_unsettled(ResponseCurve& curve, bool resonates) {
   if (curve.points.empty()) return;
   const auto highest = std::ranges::max_element(curve.points, {}, &ResponsePoint::amplitude);
   curve.log.push_back({highest->frequency, Remedy::harmonics_kept});
+  if (!resonates) return;
+  for (ResponsePoint& point : curve.points) {
+    if (point.mark != PointMark::peak && &point != &*highest) continue;
+    point.harmonics_left_out = std::max(point.harmonics_left_out, all_left_out);
+  }
 }
 
 void count(CurveHarmonics& sum, const PeakWork& work) {
@@ -161,7 +167,10 @@ class ChosenCurve {
       const Choice choice = has_along ? Choice::with_others : choose();
       if (choice == Choice::stopped) break;
       check();
-      if (is_stopped(range_) || curve_.diagnosis == Diagnosis::interrupted) break;
+      if (is_stopped(range_) || curve_.diagnosis == Diagnosis::interrupted) {
+        is_settled_ = is_settled_ && set_.united(chosen_.set.orders()) == set_ && !resonates();
+        break;
+      }
       if (choice == Choice::with_others && !is_settled_) {
         has_along = false;
         continue;
@@ -200,6 +209,10 @@ class ChosenCurve {
     return Choice::with_others;
   }
 
+  [[nodiscard]] bool resonates() const {
+    return !resonances_along(scene_, range_, set_, curve_).empty();
+  }
+
   void check() {
     const CurveHarmonics checked = check_harmonics(scene_, range_, set_, chosen_.known, curve_);
     const bool is_told = checked.highest.amplitude > 0.0;
@@ -235,7 +248,9 @@ class ChosenCurve {
                      curve_);
     curve_.iterations = iterations_;
     curve_.contact_evaluations = contact_evaluations_;
-    if (!is_settled_) note_unsettled(curve_);
+    if (!is_settled_) {
+      note_unsettled(curve_, resonates());
+    }
     return std::move(curve_);
   }
 

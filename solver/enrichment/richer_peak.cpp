@@ -14,6 +14,7 @@
 #include "solver/enrichment/curve_harmonics.hpp"
 #include "solver/enrichment/enrichment.hpp"
 #include "solver/enrichment/level_point.hpp"
+#include "solver/enrichment/resonances_along.hpp"
 #include "solver/peak/high_points.hpp"
 
 namespace microslip::solver {
@@ -166,6 +167,15 @@ std::optional<RicherPeak> richer_peak(const Scene& scene, const ContinuationOpti
   result.dissipated_energy = energy_of(richer, *found);
   result.change = (found->amplitude - top->point.amplitude) / found->amplitude;
   return result;
+}
+
+std::vector<int> resonant_harmonics(const Scene& scene, const ContinuationOptions& range,
+                                    const ResponseCurve& curve, int highest, double share) {
+  ContinuationOptions asked = range;
+  asked.n_harmonics = highest;
+  asked.highest_resonance = 0;
+  asked.harmonic_tolerance = share;
+  return resonances_along(scene, asked, set_of(scene, range, curve), curve);
 }
 
 ContinuationOptions with_harmonics_of(const Scene& scene, const ContinuationOptions& range,

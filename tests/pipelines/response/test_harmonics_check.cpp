@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -13,7 +14,9 @@
 #include "pipelines/effects/model_family.hpp"
 #include "pipelines/response/highest_peak.hpp"
 #include "pipelines/response/response_stage.hpp"
+#include "pipelines/response/solver_scenes.hpp"
 #include "pipelines/scene/scene_file.hpp"
+#include "solver/continuation.hpp"
 
 namespace microslip::pipelines::test_harmonics_check {
 namespace {
@@ -132,6 +135,64 @@ TEST(ChosenHarmonics, HaveTheHighestPeakWhereverItResonates) {
   ASSERT_NEAR(peak.frequency / (2.0 * std::numbers::pi), 73.5, 0.1);
   EXPECT_NEAR(highest_peak(chosen.curve)->frequency, peak.frequency, 1e-3 * peak.frequency);
   EXPECT_NEAR(highest_peak(chosen.curve)->amplitude, peak.amplitude, 0.05 * peak.amplitude);
+}
+
+/// Mode 2 at three times a frequency away from the peak: the output hardly sees mode 1.
+std::string with_third_harmonic(const std::string& harmonics) {
+  return R"([model]
+kind = "modal"
+[modal]
+frequency = [20.0, 63.998]
+damping_ratio = [0.0171, 0.0002]
+force_sine = [1.0, 0.0]
+output = [0.8, 10.294]
+points = [ { weight = 1, tangential_stiffness = 6371.8, normal_stiffness = 6371.8, friction_coefficient = 0.5, preload = 0.52766, phi_u_1 = 0.5, phi_u_2 = 0.21024 } ]
+[response]
+frequency = [15.0, 35.0]
+harmonics = )" +
+         harmonics + "\n";
+}
+
+TEST(HarmonicsCheck, LooksForHigherPeaksWhereAHarmonicResonates) {
+  const CurveResult one = traced(with_third_harmonic("1"));
+  const solver::ResponsePoint truth = *highest_peak(traced(with_third_harmonic("9")).curve);
+  ASSERT_GT(truth.amplitude, 1.5 * highest_peak(one.curve)->amplitude);
+  ASSERT_TRUE(one.richer && one.richer->change);
+  EXPECT_NEAR(one.richer->amplitude, truth.amplitude, 0.01 * truth.amplitude);
+  EXPECT_NEAR(one.richer->frequency, truth.frequency, 1e-3 * truth.frequency);
+}
+
+/// The curve with chosen harmonics, stopped when this has been asked for so many times.
+solver::ResponseCurve stopped_after(long most, long& asked) {
+  const SceneDescription scene =
+      parse_scene(with_third_harmonic("\"auto\""), "scene.toml", "/nowhere", {});
+  std::vector<std::string> warnings;
+  const ReducedModel model = model_of(scene, nullptr, warnings);
+  solver::ContinuationOptions options = continuation_options(scene, model);
+  options.stop = [&asked, most] { return ++asked > most; };
+  asked = 0;
+  return solver::trace_response(solver_scene(model, 1.0), options,
+                                [](const auto&) { return true; });
+}
+
+TEST(ChosenHarmonics, AreNotKnownToBeEnoughBeforeTheChoiceHasEnded) {
+  long all = 0;
+  const solver::ResponseCurve whole = stopped_after(std::numeric_limits<long>::max(), all);
+  const double truth = highest_peak(whole)->amplitude;
+  ASSERT_TRUE(whole.complete);
+  EXPECT_FALSE(is_unsettled(whole));
+  int n_wrong = 0;
+  constexpr int parts = 40;
+  for (int part = 1; part < parts; ++part) {
+    long asked = 0;
+    const solver::ResponseCurve curve = stopped_after(part * all / parts, asked);
+    if (!curve.complete) continue;
+    const solver::ResponsePoint& peak = *highest_peak(curve);
+    if (std::abs(peak.amplitude / truth - 1.0) < 0.1) continue;
+    ++n_wrong;
+    EXPECT_FALSE(is_left_out_known(curve, peak.harmonics_left_out)) << part;
+  }
+  EXPECT_GT(n_wrong, 0);
 }
 
 // Where one harmonic is enough nothing is pruned; what was solved for to confirm that tells how far
