@@ -68,7 +68,9 @@ void trace_resonances(const solver::Scene& scene, solver::ContinuationOptions op
   if (!curve.complete) richer.change.reset();
   if (curve.points.empty()) return;
   const solver::ResponsePoint& peak = *highest_peak(curve);
-  if (richer.change && peak.amplitude > richer.amplitude) take(peak, result);
+  // Less is the peak that is known already, with fewer harmonics.
+  const bool is_higher = peak.amplitude > (1.0 + worth_a_curve) * richer.amplitude;
+  if (richer.change && is_higher) take(peak, result);
 }
 
 }  // namespace
