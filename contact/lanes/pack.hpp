@@ -1,7 +1,7 @@
 /// @file
 /// Points side by side, as many as a register holds: a vector that is longer than the registers is
-/// cut by the compiler number by number, through memory (measured on AVX2: five times as slow).
-/// Results do not depend on the width but for the rounding of fused products.
+/// cut by the compiler number by number, through memory (measured on AVX2: curves take three to
+/// four times as long). Results do not depend on the width but for the rounding of fused products.
 ///
 /// A set of kernels is written once, as always-inlined templates of the vector, and compiled for
 /// the plain instruction set, AVX2 and AVX-512 (vector_lanes.hpp); the machine decides at run time.

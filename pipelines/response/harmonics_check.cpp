@@ -13,7 +13,6 @@
 #include "pipelines/response/solver_scenes.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/interrupt.hpp"
-#include "solver/continuation.hpp"
 
 namespace microslip::pipelines {
 int harmonics_to_check(const ReducedModel& model, const SceneDescription& scene) {
@@ -60,10 +59,7 @@ void trace_resonances(const solver::Scene& scene, solver::ContinuationOptions op
   options.orders.insert(options.orders.end(), more.begin(), more.end());
   std::ranges::sort(options.orders);
   options.n_harmonics = options.orders.back();
-  options.search_starts = 0;
-  options.judge_stability = false;
-  const auto goes_on = [&options](const auto&) { return !(options.stop && options.stop()); };
-  const solver::ResponseCurve curve = solver::trace_response(scene, options, goes_on);
+  const solver::ResponseCurve curve = curve_for_its_peak(scene, options);
   richer.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (!curve.complete) richer.change.reset();
   if (curve.points.empty()) return;

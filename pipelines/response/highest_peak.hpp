@@ -1,5 +1,6 @@
 /// @file
-/// The point of a curve that its summary, its error and its maps are about.
+/// The point of a curve that its summary, its error and its maps are about, and whether it is known
+/// what chosen harmonics leave out there.
 #pragma once
 
 #include "solver/response_curve.hpp"

@@ -8,6 +8,14 @@
 
 namespace microslip::pipelines {
 
+solver::ResponseCurve curve_for_its_peak(const solver::Scene& scene,
+                                         solver::ContinuationOptions options) {
+  options.search_starts = 0;
+  options.judge_stability = false;
+  const auto goes_on = [&options](const auto&) { return !(options.stop && options.stop()); };
+  return solver::trace_response(scene, options, goes_on);
+}
+
 std::optional<solver::ResponsePoint> peak_about(const ReducedModel& model, double load,
                                                 solver::ContinuationOptions options,
                                                 double frequency) {
@@ -15,11 +23,7 @@ std::optional<solver::ResponsePoint> peak_about(const ReducedModel& model, doubl
   for (double* end : {&options.frequency_begin, &options.frequency_end}) {
     *end = std::clamp(*end, (1.0 - beside) * frequency, (1.0 + beside) * frequency);
   }
-  options.search_starts = 0;
-  options.judge_stability = false;
-  const auto goes_on = [&options](const auto&) { return !(options.stop && options.stop()); };
-  const solver::ResponseCurve curve =
-      solver::trace_response(solver_scene(model, load), options, goes_on);
+  const solver::ResponseCurve curve = curve_for_its_peak(solver_scene(model, load), options);
   const solver::ResponsePoint* peak = peak_above_all(curve);
   if (!curve.complete || peak == nullptr) return std::nullopt;
   return *peak;

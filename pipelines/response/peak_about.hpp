@@ -8,8 +8,14 @@
 #include "pipelines/model/reduced_model.hpp"
 #include "solver/continuation_options.hpp"
 #include "solver/response_curve.hpp"
+#include "solver/scene.hpp"
 
 namespace microslip::pipelines {
+
+/// A curve for its highest place alone: no solutions are searched beside it, stability is not judged.
+/// @param options  of the whole curve, harmonics given; `stop` ends it.
+[[nodiscard]] solver::ResponseCurve curve_for_its_peak(const solver::Scene& scene,
+                                                       solver::ContinuationOptions options);
 
 /// @param load       as of point_parameters.hpp.
 /// @param options    of the whole curve, harmonics given; stability is not judged.

@@ -248,9 +248,7 @@ class ChosenCurve {
                      curve_);
     curve_.iterations = iterations_;
     curve_.contact_evaluations = contact_evaluations_;
-    if (!is_settled_) {
-      note_unsettled(curve_, resonates());
-    }
+    if (!is_settled_) note_unsettled(curve_, resonates());
     return std::move(curve_);
   }
 
