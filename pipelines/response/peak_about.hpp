@@ -12,7 +12,7 @@
 
 namespace microslip::pipelines {
 
-/// A curve for its highest place alone: no solutions are searched beside it, stability is not judged.
+/// A curve for its highest place alone: nothing is searched beside it, stability is not judged.
 /// @param options  of the whole curve, harmonics given; `stop` ends it.
 [[nodiscard]] solver::ResponseCurve curve_for_its_peak(const solver::Scene& scene,
                                                        solver::ContinuationOptions options);
