@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "pipelines/accuracy/with_effect.hpp"
 #include "pipelines/effects/effect_choice.hpp"
 #include "pipelines/response/highest_peak.hpp"
 #include "pipelines/response/peak_about.hpp"
@@ -136,6 +137,20 @@ std::optional<LimitName> limit_of(const solver::ResponseCurve& curve) {
   return share.separated_share == 1.0 ? std::optional(LimitName::free) : std::nullopt;
 }
 
+PeakThere of_point(const solver::ResponsePoint& peak) {
+  return {{peak.amplitude, peak.frequency, peak.energy.friction}};
+}
+
+/// Friction along r may drive a mode that nothing else drives.
+std::optional<PeakThere> higher_there(const solver::Scene& here, const solver::OtherModel& there,
+                                      const solver::ContinuationOptions& options,
+                                      const solver::ResponseCurve& curve, double amplitude_there,
+                                      double seconds) {
+  const double above = std::max(amplitude_there, highest_peak(curve)->amplitude);
+  const auto peak = peak_only_with(here, there, options, curve, above, seconds);
+  return peak ? std::optional(of_point(*peak)) : std::nullopt;
+}
+
 /// The highest peak of the curve in another model.
 std::optional<PeakThere> peak_there(const ReducedModel& own, const SceneDescription& scene,
                                     const RicherModel& richer, const solver::ResponseCurve& curve,
@@ -147,8 +162,13 @@ std::optional<PeakThere> peak_there(const ReducedModel& own, const SceneDescript
   const solver::Scene there = solver_scene(refined, load);
   const solver::ResponsePoint& top = *highest_peak(curve);
   const double factor = frequency_factor(own, richer.model, top.frequency, richer.embedding);
-  if (const auto peak = solver::peak_elsewhere(
-          here, options, curve, {there, richer.embedding, factor, told_by_step(scene, richer)})) {
+  const solver::OtherModel other{there, richer.embedding, factor, told_by_step(scene, richer)};
+  if (const auto peak = solver::peak_elsewhere(here, options, curve, other)) {
+    if (richer.source == "second_direction") {
+      const double seconds = std::min(bearable, scene.response->time_budget);
+      const auto higher = higher_there(here, other, options, curve, peak->other_amplitude, seconds);
+      if (higher) return higher;
+    }
     return PeakThere{{peak->other_amplitude, peak->other_frequency, peak->other_dissipated_energy},
                      peak->is_solved ? ErrorKind::solved : ErrorKind::estimated};
   }
@@ -157,7 +177,7 @@ std::optional<PeakThere> peak_there(const ReducedModel& own, const SceneDescript
   const auto traced = peak_about(refined, load, solver::with_harmonics_of(here, options, curve),
                                  factor * top.frequency);
   if (!traced) return std::nullopt;
-  return PeakThere{{traced->amplitude, traced->frequency, traced->energy.friction}};
+  return of_point(*traced);
 }
 
 void add_model(CurveBudget& budget, const ReducedModel& model, const SceneDescription& scene,

@@ -14,6 +14,7 @@
 #include "contact/contact_force.hpp"
 #include "contact/dense.hpp"
 #include "contact/phase.hpp"
+#include "pipelines/accuracy/limit_resonances.hpp"
 #include "pipelines/accuracy/with_effect.hpp"
 #include "pipelines/description/curve_request.hpp"
 #include "pipelines/response/highest_peak.hpp"
@@ -55,83 +56,10 @@ std::vector<solver::ResponseCurve> single_peaks(const solver::ResponseCurve& cur
   return peaks;
 }
 
-double larger(double a, double b) { return std::abs(b) > std::abs(a) ? b : a; }
-
 void keep_larger(Change& most, double effect, const solver::ResponsePoint& peak) {
   if (!(std::abs(effect) >= std::abs(most.effect))) return;
   most.effect = effect;
   most.where = peak.frequency;
-}
-
-/// [rad/s], of a curve.
-struct Range {
-  double low, high;
-  [[nodiscard]] bool is_point() const { return low == high; }
-  [[nodiscard]] bool has(double place) const { return place > low && place < high; }
-};
-
-Range range_of(const solver::ContinuationOptions& options) {
-  const auto [low, high] = std::minmax(options.frequency_begin, options.frequency_end);
-  return {low, high};
-}
-
-/// Of a linear limit.
-struct Resonances {
-  Eigen::VectorXd frequency;  ///< [rad/s], ascending
-  Eigen::MatrixXd shape;      ///< a column each, in modal coordinates
-};
-
-Resonances resonances(const solver::Scene& scene, LimitName limit) {
-  Eigen::MatrixXd total = scene.natural_frequency.array().square().matrix().asDiagonal();
-  if (limit == LimitName::stuck && scene.contact) total += scene.contact->stuck_stiffness();
-  const auto pairs = contact::symmetric_pairs(total);
-  if (!pairs) return {};
-  return {pairs->values.cwiseMax(0.0).cwiseSqrt(), pairs->vectors};
-}
-
-/// Of the resonance of the other model that has most of this shape, over this one's: they may stand
-/// in another order there.
-double factor_of(const Resonances& own, Eigen::Index i, const Resonances& there,
-                 const Eigen::MatrixXd& embedding) {
-  if (there.frequency.size() == 0 || !(own.frequency[i] > 0.0)) return 1.0;
-  Eigen::VectorXd shape = own.shape.col(i);
-  if (embedding.size() > 0) shape = embedding * shape;
-  Eigen::Index same = 0;
-  (there.shape.transpose() * shape).cwiseAbs().maxCoeff(&same);
-  return there.frequency[same] / own.frequency[i];
-}
-
-/// Of the resonance nearest to the middle of a range, relative.
-double resonance_change(const solver::Scene& own, const solver::OtherModel& with,
-                        const Range& range, LimitName limit) {
-  const Resonances without = resonances(own, limit);
-  if (without.frequency.size() == 0) return 0.0;
-  Eigen::Index nearest = 0;
-  (without.frequency.array() - 0.5 * (range.low + range.high)).abs().minCoeff(&nearest);
-  return factor_of(without, nearest, resonances(with.scene, limit), with.embedding) - 1.0;
-}
-
-/// Of both limits the one that moves more.
-double resonance_change(const solver::Scene& own, const solver::OtherModel& with,
-                        const Range& range) {
-  return larger(resonance_change(own, with, range, LimitName::free),
-                resonance_change(own, with, range, LimitName::stuck));
-}
-
-/// Of the resonance of either limit that is nearest to a peak, the other model's over the own.
-double factor_of_nearest(const solver::Scene& own, const solver::OtherModel& with, double peak) {
-  double distance = not_there;
-  double factor = 1.0;
-  for (const LimitName limit : {LimitName::free, LimitName::stuck}) {
-    const Resonances without = resonances(own, limit);
-    if (without.frequency.size() == 0) continue;
-    Eigen::Index nearest = 0;
-    const double apart = (without.frequency.array() - peak).abs().minCoeff(&nearest);
-    if (apart >= distance) continue;
-    distance = apart;
-    factor = factor_of(without, nearest, resonances(with.scene, limit), with.embedding);
-  }
-  return factor;
 }
 
 /// The peak is looked for where it is, and where its resonance goes.
@@ -144,26 +72,9 @@ std::optional<solver::PeakOfBoth> found_elsewhere(const solver::Scene& own,
   return solver::peak_elsewhere(own, options, curve, {with.scene, with.embedding, factor});
 }
 
-/// What may be solved again of an effect and a curve [s].
-constexpr double bearable = 60.0;
-
-/// As long as a curve may take, and no longer than what is bearable.
+/// As long as a curve may take, and no longer than what is bearable [s].
 double longest(const SceneDescription& scene) {
   return std::min(bearable, scene.response->time_budget);
-}
-
-/// The whole curve with the effect: a peak of one that leans over, or jumps, may lie where nothing
-/// leads to from that without. @return empty: it has no peak, or takes too long.
-std::optional<solver::ResponseCurve> traced_with(const solver::OtherModel& with,
-                                                 solver::ContinuationOptions options,
-                                                 const solver::ResponseCurve& own, double seconds) {
-  if (own.seconds > seconds) return std::nullopt;
-  const TimeLimit limit(seconds);
-  options.stop = [&limit, stop = options.stop] { return limit.is_over() || stop(); };
-  const auto goes_on = [&](const auto&) { return !options.stop(); };
-  solver::ResponseCurve curve = solver::trace_response(with.scene, options, goes_on);
-  if (!curve.complete || highest_peak(curve)->mark != solver::PointMark::peak) return std::nullopt;
-  return curve;
 }
 
 /// The peak of a curve that is nearest to where one is expected.
@@ -256,54 +167,107 @@ class LostPeaks {
   bool is_asked_ = false;
 };
 
+/// The peaks of a curve, one after the other, with the effect.
+class ComparedPeaks {
+ public:
+  explicit ComparedPeaks(const Comparison& of) : of_(of), lost_(of) {}
+
+  /// @return no peak can be compared with the highest: what is told then.
+  std::optional<Changes> take_highest(const solver::ResponsePoint& peak) {
+    auto both = found_elsewhere(of_.own, of_.options, of_.curve, of_.with);
+    if (!both && !range_.is_point()) {
+      whole_ = traced_with(of_.with, of_.options, of_.curve, of_.seconds);
+      if (whole_) {
+        both = pair_of(peak, *highest_peak(*whole_));
+        moved_ = both->other_frequency / both->frequency;
+      }
+    }
+    if (both) {
+      const double shift = both->other_frequency / both->frequency - 1.0;
+      if (!range_.is_point() && !range_.has(both->other_frequency)) {
+        return Changes{{peak_outside_goal, shift}};
+      }
+      take(*both, peak);
+      return std::nullopt;
+    }
+    const double shift = resonance_change(of_.own, of_.with, range_);
+    const bool leaves = !range_.is_point() && !range_.has((1.0 + shift) * peak.frequency);
+    return leaves ? Changes{{peak_outside_goal, shift}} : not_found;
+  }
+
+  /// One that is lost changes by all it has.
+  void take_lower(const solver::ResponseCurve& alone) {
+    const solver::ResponsePoint& peak = *highest_peak(alone);
+    auto both = whole_ ? pair_of(peak, *nearest_peak(*whole_, moved_ * peak.frequency))
+                       : found_elsewhere(of_.own, of_.options, alone, of_.with);
+    if (both) {
+      lost_.take(*both);
+    } else {
+      both = lost_.found(alone);
+    }
+    if (both) {
+      take(*both, peak);
+    } else {
+      keep_height(-peak.amplitude / of_.highest, peak);
+    }
+  }
+
+  /// Another one, with the effect alone.
+  void take_beyond() {
+    const auto peak = peak_only_with(of_.own, of_.with, of_.options, of_.curve,
+                                     std::max(of_.highest, highest_), of_.seconds);
+    if (!peak) return;
+    keep_height(peak->amplitude / of_.highest - 1.0, *peak);
+    keep_larger(place_, peak->frequency / highest_peak(of_.curve)->frequency - 1.0, *peak);
+  }
+
+  /// Empty: nothing was compared.
+  [[nodiscard]] Changes changes() const { return any_ ? Changes{height_, place_} : Changes{}; }
+
+ private:
+  void take(const solver::PeakOfBoth& both, const solver::ResponsePoint& peak) {
+    highest_ = std::max(highest_, both.other_amplitude);
+    keep_height((both.other_amplitude - both.amplitude) / of_.highest, peak);
+    const double shift = both.other_frequency / both.frequency - 1.0;
+    keep_larger(place_, shift * both.amplitude / of_.highest, peak);
+  }
+
+  void keep_height(double effect, const solver::ResponsePoint& peak) {
+    any_ = true;
+    keep_larger(height_, effect, peak);
+  }
+
+  const Comparison& of_;
+  Range range_ = range_of(of_.options);
+  LostPeaks lost_;
+  std::optional<solver::ResponseCurve> whole_;  // with the effect, where nothing less tells
+  double moved_ = 1.0;                          // frequency of the highest then
+  double highest_ = 0.0;                        // of those with the effect [m]
+  Change height_{peak_amplitude_goal, 0.0};
+  Change place_{peak_frequency_goal, 0.0};
+  bool any_ = false;
+};
+
 Changes changes_of(const Comparison& of) {
   const Range range = range_of(of.options);
   const std::vector<solver::ResponseCurve> peaks = single_peaks(of.curve);
   const bool has_peak = peaks.front().points.front().mark == solver::PointMark::peak ||
                         range.has(highest_peak(of.curve)->frequency);
-  if (!has_peak && !range.is_point()) return without_peak(of, range);
-  Change height{peak_amplitude_goal, 0.0};
-  Change place{peak_frequency_goal, 0.0};
-  LostPeaks lost(of);
-  std::optional<solver::ResponseCurve> whole;  // with the effect, where nothing less tells
-  double moved = 1.0;                          // frequency of the highest then
-  for (std::size_t i = 0; i < (of.all_peaks ? peaks.size() : 1); ++i) {
-    const solver::ResponsePoint& peak = *highest_peak(peaks[i]);
-    std::optional<solver::PeakOfBoth> both;
-    if (whole) {
-      both = pair_of(peak, *nearest_peak(*whole, moved * peak.frequency));
-    } else {  // beside the highest the whole curve is looked at: another place may be highest
-      both = found_elsewhere(of.own, of.options, i == 0 ? of.curve : peaks[i], of.with);
+  ComparedPeaks compared(of);
+  Changes told;
+  if (has_peak || range.is_point()) {
+    told = compared.take_highest(*highest_peak(peaks.front())).value_or(Changes{});
+    if (!told.empty() && std::isinf(told.front().effect)) return told;
+    for (std::size_t i = 1; i < (of.all_peaks ? peaks.size() : 1); ++i) {
+      compared.take_lower(peaks[i]);
     }
-    if (!both && i == 0 && !range.is_point()) {
-      whole = traced_with(of.with, of.options, of.curve, of.seconds);
-      if (whole) {
-        both = pair_of(peak, *highest_peak(*whole));
-        moved = both->other_frequency / both->frequency;
-      }
-    }
-    if (both) {
-      lost.take(*both);
-    } else if (i > 0) {
-      both = lost.found(peaks[i]);
-    }
-    if (both) {
-      const double shift = both->other_frequency / both->frequency - 1.0;
-      if (i == 0 && !range.is_point() && !range.has(both->other_frequency)) {
-        return {{peak_outside_goal, shift}};
-      }
-      keep_larger(height, (both->other_amplitude - both->amplitude) / of.highest, peak);
-      keep_larger(place, shift * both->amplitude / of.highest, peak);
-    } else if (i == 0) {
-      const double shift = resonance_change(of.own, of.with, range);
-      const bool leaves =
-          !range.is_point() && !range.has((1.0 + shift) * highest_peak(of.curve)->frequency);
-      return leaves ? Changes{{peak_outside_goal, shift}} : not_found;
-    } else {  // a lower one that is lost changes by all it has
-      keep_larger(height, -peak.amplitude / of.highest, peak);
-    }
+  } else {
+    told = without_peak(of, range);
   }
-  return {height, place};
+  compared.take_beyond();
+  const Changes changes = compared.changes();
+  told.insert(told.end(), changes.begin(), changes.end());
+  return told;
 }
 
 /// @param model  as the curve was solved.

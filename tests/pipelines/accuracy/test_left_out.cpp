@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -291,6 +292,36 @@ TEST(LeftOut, ALowerPeakThatMovesAndGrowsIsNoShoulder) {
   // As the curves with and without have it, over the highest.
   EXPECT_NEAR(height->effect, (7.2841 - 3.1291) / 11.979, 1e-3);
   EXPECT_NEAR(height->where_hz, 23.427, 0.01);
+}
+
+// Nothing drives the second mode but contact along q, or along r: the curve without has one peak.
+TEST(LeftOut, APeakThatExistsOnlyWithAnEffectIsFound) {
+  struct Case {
+    const char *effect, *setting, *shape;
+  };
+  for (const Case& one :
+       {Case{"normal_motion", "effects.normal_motion=off", "modal.points[0].phi_v"},
+        Case{"second_direction", "effects.second_direction=off", "modal.points[0].phi_w"}}) {
+    const std::string shape = one.shape;
+    Overrides with{"modal.frequency=[20, 37]",   "modal.damping_ratio=[0.01, 1e-4]",
+                   "modal.force_sine=[1, 0]",    "modal.output=[0.8, 3]",
+                   "modal.points[0].phi_u_2=0",  "modal.points[0].phi_v_1=0",
+                   "modal.points[0].phi_w_1=0",  "modal.points[0].phi_w_2=0",
+                   "response.frequency=[15, 45]"};
+    with.insert(with.end(), {shape + "_1=0.008", shape + "_2=0.6"});
+    Overrides off = with;
+    off.emplace_back(one.setting);
+    const Study without = of_point(off);
+    const solver::ResponsePoint& own = *highest_peak(without.curves[0].curve);
+    const solver::ResponsePoint there = *highest_peak(of_point(with).curves[0].curve);
+    ASSERT_GT(there.amplitude, 1.5 * own.amplitude) << one.effect;
+    ASSERT_GT(there.frequency, 1.5 * own.frequency) << one.effect;
+    const auto rows = rows_of(without);
+    const ErrorRow* height = found(rows, one.effect, peak_amplitude_goal);
+    ASSERT_NE(height, nullptr) << one.effect;
+    EXPECT_NEAR(height->effect, there.amplitude / own.amplitude - 1.0, 1e-3) << one.effect;
+    EXPECT_NEAR(height->where_hz, there.frequency / (2.0 * std::numbers::pi), 0.01) << one.effect;
+  }
 }
 
 TEST(LeftOut, APeakThatLeavesTheRangeIsToldByItsFrequency) {
