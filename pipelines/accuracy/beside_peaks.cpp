@@ -248,7 +248,10 @@ std::vector<ErrorRow> rows_there(const ReducedModel& simulated, const SceneDescr
     const auto indicator = std::ranges::find(along, other.source, &IndicatorOfCurve::effect);
     const ErrorRow* height = row_of(known, other.source, peak_amplitude_goal);
     const ErrorRow* shift = row_of(known, other.source, peak_frequency_goal);
-    if (shift == nullptr) shift = row_of(known, other.source, peak_outside_goal);
+    if (const ErrorRow* outside = row_of(known, other.source, peak_outside_goal)) {
+      shift = outside;
+      height = nullptr;  // of lower peaks
+    }
     if (shift == nullptr) continue;
     const double higher = height != nullptr ? height->effect : 0.0;  // of one outside: not compared
     if (!std::isfinite(higher)) continue;

@@ -214,7 +214,34 @@ void tell_none_together(const std::vector<NoBound>& none, EffectRecord& effect) 
       fmt::format("; with {} put back together no bound was made: {}", why->effect, why->why);
 }
 
-/// In words with the first of them.
+/// What having one source alone changes most, of peaks or in their place.
+double change_alone(const std::vector<ErrorRow>& rows, std::string_view source) {
+  double most = 0.0;
+  for (const ErrorRow& row : rows) {
+    const bool told = tells_change(row, source) || tells_without_peak(row, source);
+    if (told) most = std::max(most, std::abs(row.effect));
+  }
+  return most;
+}
+
+/// Of those put back together the one that changes most alone, and so is to blame.
+bool is_most_of(const std::vector<ErrorRow>& rows, std::string_view source,
+                std::string_view effect) {
+  std::string_view most;
+  double change = -1.0;
+  for (std::size_t at = 0; at <= source.size();) {
+    const std::size_t end = std::min(source.find(together, at), source.size());
+    const std::string_view one = source.substr(at, end - at);
+    if (const double alone = change_alone(rows, one); alone > change) {
+      change = alone;
+      most = one;
+    }
+    at = end + together.size();
+  }
+  return most == effect;
+}
+
+/// In words with the first of them, objected to with the one that matters most.
 void tell_together(const std::vector<ErrorRow>& rows, double tolerance,
                    const std::vector<NoBound>& none, EffectRecord& effect) {
   const std::string source = joint_source(rows, effect.name);
@@ -225,11 +252,11 @@ void tell_together(const std::vector<ErrorRow>& rows, double tolerance,
   const Told told = told_of(rows, source, tolerance);
   if (!told.anything()) return;
   if (told.words.empty()) effect.bound_together = told.bound;
-  if (!is_first_of(source, effect.name)) return;
   const std::string text = fmt::format("with {} put back together {}", source, joint_text(told));
-  effect.reason += "; " + text;
+  if (is_first_of(source, effect.name)) effect.reason += "; " + text;
   const bool matters = told.bound.value_or(0.0) > tolerance || told.beside > tolerance;
-  if (effect.objection.empty() && matters) effect.objection = "left out, and " + text;
+  if (!effect.objection.empty() || !matters) return;
+  if (is_most_of(rows, source, effect.name)) effect.objection = "left out, and " + text;
 }
 
 void tell_none(const std::vector<NoBound>& none, EffectRecord& effect) {

@@ -12,6 +12,7 @@
 #include "pipelines/description/damping_ratios.hpp"
 #include "pipelines/effects/effects.hpp"
 #include "pipelines/effects/motion_along_r.hpp"
+#include "pipelines/response/highest_peak.hpp"
 #include "pipelines/stages/curve_family.hpp"
 #include "pipelines/stages/stage_seconds.hpp"
 #include "pipelines/structure/extrapolated_modes.hpp"
@@ -115,13 +116,25 @@ bool solve(const Solution& before, const Refinement& step, int jobs, Progress& p
   return !cut_short();
 }
 
+/// Where nothing else is the reason.
+std::string why_not_compared(const std::vector<CurveResult>& curves) {
+  if (std::ranges::none_of(curves, [](const auto& one) { return one.curve.complete; })) {
+    return "no curve is complete";
+  }
+  const bool any_peak = std::ranges::any_of(curves, [](const CurveResult& one) {
+    const solver::ResponsePoint* peak = highest_peak(one.curve);
+    return peak != nullptr && peak->mark == solver::PointMark::peak;
+  });
+  return any_peak ? "the model with it was not solved" : "no curve has a peak to compare";
+}
+
 /// Effects that are left out and may have no bound, with the reason it would have.
 std::vector<NoBound> without_bound(const Solution& solution) {
   std::vector<NoBound> none;
   for (const CurveBudget& budget : solution.budgets) {
     none.insert(none.end(), budget.no_bound.begin(), budget.no_bound.end());
   }
-  std::string why = "no curve has a peak to compare";
+  std::string why = why_not_compared(solution.curves);
   if (was_cut_short()) why = "the time was over";
   if (!solution.scene.accuracy.error_budget) why = "accuracy.error_budget = \"off\"";
   for (std::string& name : effects_left_out(solution.model, solution.scene)) {

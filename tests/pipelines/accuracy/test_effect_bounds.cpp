@@ -152,6 +152,17 @@ TEST(EffectBounds, EffectsThatHideEachOtherAreObjectedToTogether) {
   EXPECT_EQ(effects[1].objection, "");  // told once
 }
 
+TEST(EffectBounds, WhatOneOfSeveralDoesIsNotHeldAgainstAnother) {
+  std::vector<EffectRecord> effects{left_out("moments"), left_out("residual")};
+  tell_bounds({{"a", peak_amplitude_goal, "moments", 1e-4, ErrorKind::solved, 0.1},
+               {"a", peak_amplitude_goal, "residual", 0.29, ErrorKind::solved, 0.1},
+               {"a", peak_amplitude_goal, "moments + residual", 0.3, ErrorKind::solved, 0.1}},
+              tolerance, effects);
+  EXPECT_NE(effects[0].reason.find("moments + residual put back together"), std::string::npos);
+  EXPECT_EQ(effects[0].objection, "");
+  EXPECT_NE(effects[1].objection.find("29 %"), std::string::npos) << effects[1].objection;
+}
+
 TEST(EffectBounds, AModelWithAllOfThemThatCannotBeSaysWhy) {
   std::vector<EffectRecord> effects{left_out("moments"), left_out("residual"),
                                     left_out("roughness")};
