@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <new>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -49,16 +50,31 @@ ExitCode exit_code_of(const std::exception& error) {
   return ExitCode::internal;
 }
 
+namespace {
+
+/// A terminal would obey what a scene or a mesh has written into a name.
+std::string printable(std::string_view text) {
+  std::string shown;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool is_control = (byte < 0x20U && c != '\n' && c != '\t') || byte == 0x7FU;
+    shown += is_control ? fmt::format("\\x{:02x}", byte) : std::string(1, c);
+  }
+  return shown;
+}
+
+}  // namespace
+
 std::string message_of(const std::exception& error) {
   const auto* failure = dynamic_cast<const std::filesystem::filesystem_error*>(&error);
   if (failure != nullptr) {
-    return fmt::format("{}: {}; choose another folder with -o", failure->path1().string(),
-                       failure->code().message());
+    return fmt::format("{}: {}; choose another folder with -o",
+                       printable(failure->path1().string()), failure->code().message());
   }
   if (is<std::bad_alloc>(error)) return "out of memory";
   if (exit_code_of(error) == ExitCode::internal)
-    return fmt::format("internal error: {}", error.what());
-  return error.what();
+    return fmt::format("internal error: {}", printable(error.what()));
+  return printable(error.what());
 }
 
 }  // namespace microslip::pipelines
