@@ -106,6 +106,11 @@ CurveMaps curve_maps(const ReducedModel& model, const SceneDescription& scene,
       if (points.empty()) drawn.missing.push_back(no_map(result, *frequency));
     } else if (std::get<MapName>(entry) == MapName::peak) {
       if (const auto* peak = highest_peak(result.curve)) add("peak", *peak);
+    } else if (result.integrated) {
+      drawn.missing.push_back(fmt::format(
+          "curve {}: no map at folds, which motions integrated in time do not show: set "
+          "response.maps to \"peak\" or to frequencies",
+          result.name));
     } else {
       int count = 0;
       for (const solver::ResponsePoint& point : result.curve.points) {

@@ -117,7 +117,7 @@ CsvTable inline_points(const SectionReader& section, const toml::array& list) {
     for (const std::string& column : columns)
       values.push_back(inline_value(section, entry, column));
   }
-  return CsvTable::from_rows(section.file() + ": modal.points", std::move(columns),
+  return CsvTable::from_rows(place_of(&list, section.file()) + ": modal.points", std::move(columns),
                              std::move(values), std::move(places));
 }
 

@@ -36,7 +36,7 @@ TEST(CurveMaps, OfMotionsIntegratedInTimeAreTheirs) {
   const SceneDescription scene =
       read_scene(MICROSLIP_SCENES "/oscillator_1dof.toml",
                  {"response.frequency=[0.25, 0.75]", "response.points=2",
-                  "response.maps=[0.25, 0.5, 0.75]", "response.map_phases=4"});
+                  "response.maps=[0.25, 0.5, 0.75, \"folds\"]", "response.map_phases=4"});
   ReducedModel model = reduced_model(scene);
   model.effects = contact_effects(model, scene);
   const CurveMaps drawn = curve_maps(model, scene, integrated());
@@ -47,10 +47,11 @@ TEST(CurveMaps, OfMotionsIntegratedInTimeAreTheirs) {
   const double shape = model.patches[0].cells.shapes.u(0, 0);
   EXPECT_NEAR(drawn.maps[1].points.relative_displacement(0, 0), 7.5e-5 * shape, 1e-12 * shape)
       << "with its harmonics";
-  ASSERT_EQ(drawn.missing.size(), 1U);
+  ASSERT_EQ(drawn.missing.size(), 2U);
   EXPECT_NE(drawn.missing[0].find("no map at 0.5 Hz, where no motion was integrated"),
             std::string::npos)
       << drawn.missing[0];
+  EXPECT_NE(drawn.missing[1].find("no map at folds"), std::string::npos) << drawn.missing[1];
 }
 
 }  // namespace

@@ -718,6 +718,9 @@ TEST(SceneFile, WhatIsNoTomlIsToldByLineColumnAndKey) {
   EXPECT_NE(said("weight = 2", "weight = 2.").find("scene.toml:11:16: modal.points.weight: "),
             std::string::npos)
       << said("weight = 2", "weight = 2.");
+  EXPECT_NE(said("phi_v_2", "phi_v_22").find("scene.toml:9: modal.points: unknown column"),
+            std::string::npos)
+      << said("phi_v_2", "phi_v_22");
   EXPECT_NE(said("frequency = 20", "frequency = 99999999999999999999")
                 .find("response.frequency: 9999999999999999999"),
             std::string::npos);
