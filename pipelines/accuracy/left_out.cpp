@@ -77,17 +77,6 @@ double longest(const SceneDescription& scene) {
   return std::min(bearable, scene.response->time_budget);
 }
 
-/// The peak of a curve that is nearest to where one is expected.
-const solver::ResponsePoint* nearest_peak(const solver::ResponseCurve& curve, double expected) {
-  const solver::ResponsePoint* nearest = nullptr;
-  for (const solver::ResponsePoint& point : curve.points) {
-    if (point.mark != solver::PointMark::peak) continue;
-    const auto distance = [&](const auto& one) { return std::abs(one.frequency - expected); };
-    if (nearest == nullptr || distance(point) < distance(*nearest)) nearest = &point;
-  }
-  return nearest;
-}
-
 solver::PeakOfBoth pair_of(const solver::ResponsePoint& own, const solver::ResponsePoint& there) {
   return {own.frequency, own.amplitude, there.frequency, there.amplitude};
 }

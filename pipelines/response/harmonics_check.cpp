@@ -46,6 +46,13 @@ void trace_about_peak(const ReducedModel& model, double load,
   take(*peak, result);
 }
 
+/// Another peak than that which is known, which the same harmonics make lower.
+bool is_another(const solver::ResponseCurve& curve, const solver::ResponsePoint& highest,
+                double known) {
+  const solver::ResponsePoint* same = nearest_peak(curve, known);
+  return same != nullptr && same != &highest && same->amplitude < highest.amplitude;
+}
+
 /// Next to a resonance of a harmonic that was not given the curve may be highest elsewhere.
 void trace_resonances(const solver::Scene& scene, solver::ContinuationOptions options, int highest,
                       CurveResult& result) {
@@ -66,7 +73,8 @@ void trace_resonances(const solver::Scene& scene, solver::ContinuationOptions op
   const solver::ResponsePoint& peak = *highest_peak(curve);
   // Less is the peak that is known already, with fewer harmonics.
   const bool is_higher = peak.amplitude > (1.0 + worth_a_curve) * richer.amplitude;
-  if (richer.change && is_higher) take(peak, result);
+  if (!richer.change) return;
+  if (is_higher || is_another(curve, peak, richer.frequency)) take(peak, result);
 }
 
 }  // namespace

@@ -25,6 +25,16 @@ const solver::ResponsePoint* peak_above_all(const solver::ResponseCurve& curve) 
   return is_above ? peak : nullptr;
 }
 
+const solver::ResponsePoint* nearest_peak(const solver::ResponseCurve& curve, double frequency) {
+  const solver::ResponsePoint* nearest = nullptr;
+  for (const solver::ResponsePoint& point : curve.points) {
+    if (point.mark != solver::PointMark::peak) continue;
+    const auto distance = [&](const auto& one) { return std::abs(one.frequency - frequency); };
+    if (nearest == nullptr || distance(point) < distance(*nearest)) nearest = &point;
+  }
+  return nearest;
+}
+
 bool is_unsettled(const solver::ResponseCurve& curve) {
   return std::ranges::any_of(curve.log, [](const solver::SolverEvent& event) {
     return event.remedy == solver::Remedy::harmonics_kept;

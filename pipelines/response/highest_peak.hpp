@@ -14,6 +14,10 @@ namespace microslip::pipelines {
 /// moved out. nullptr: it has, or none was solved for.
 [[nodiscard]] const solver::ResponsePoint* peak_above_all(const solver::ResponseCurve& curve);
 
+/// Of the solved peaks the one nearest to a frequency [rad/s]. nullptr: there is none.
+[[nodiscard]] const solver::ResponsePoint* nearest_peak(const solver::ResponseCurve& curve,
+                                                        double frequency);
+
 /// The choice of its harmonics did not come to its end.
 [[nodiscard]] bool is_unsettled(const solver::ResponseCurve& curve);
 

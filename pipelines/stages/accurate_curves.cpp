@@ -120,6 +120,17 @@ void look_at(const Solution& solution, RunRecord& record, AccuracySummary& accur
   accuracy.left_out = record.left_out();
 }
 
+/// A curve that closer harmonics gave no bar once is not cured by closer ones: the others are what
+/// is refined.
+std::vector<CurveBudget> to_refine(const Solution& solution, bool was_lost) {
+  std::vector<CurveBudget> budgets = solution.budgets;
+  if (was_lost) {
+    std::erase_if(budgets,
+                  [](const CurveBudget& one) { return !one.unknown.empty() && !one.has_bar(); });
+  }
+  return budgets;
+}
+
 /// Else nothing has an error that is told: limits of modes that are given.
 bool has_budgets(const Solution& solution) {
   return std::ranges::any_of(solution.budgets, [](const CurveBudget& one) {
@@ -144,12 +155,14 @@ void refine_to_tolerance(Solution& solution, const RunOptions& options, RunRecor
   if (accuracy.asked == 0.0) return;
   look_at(solution, record, accuracy);
   bool puts_back = true;
+  bool was_lost = false;  // a bar, with chosen harmonics
   std::string missing = "more rounds of refinement would be needed";
   for (int i = 0; i < most_rounds && has_budgets(solution); ++i) {
     if (accuracy.reached <= accuracy.asked) break;
     std::string left;
     const SpentSeconds spent = spent_on(solution, options);
-    const auto next = refinement(solution.scene, solution.budgets, accuracy.asked, spent, left);
+    const auto next =
+        refinement(solution.scene, to_refine(solution, was_lost), accuracy.asked, spent, left);
     missing =
         next ? fmt::format("next: {}, some {} or more", next->text, seconds_text(next->seconds))
              : fmt::format("this program cannot refine what is left{}{}", left.empty() ? "" : ": ",
@@ -179,6 +192,7 @@ void refine_to_tolerance(Solution& solution, const RunOptions& options, RunRecor
     // What was rightly left out of the coarser model need not be so of this one.
     if (puts_back) puts_back = put_back_missed_effects(solution, options.jobs, record);
     look_at(solution, record, accuracy);
+    was_lost = !std::isfinite(accuracy.reached);
   }
   const bool met = accuracy.reached <= accuracy.asked;
   accuracy.out_of_time = !met && was_cut_short();

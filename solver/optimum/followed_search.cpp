@@ -99,19 +99,24 @@ class Search {
   }
 
   /// Inner values lower than their neighbours that may hide the minimum: nearly as low as the
-  /// lowest known, between neighbours further apart than a rough search leaves them, and not
-  /// searched between just these.
+  /// lowest known, or lower by a part of what the higher neighbour has more, between neighbours
+  /// further apart than a rough search leaves them, and not searched between just these.
   [[nodiscard]] std::vector<Place> open_valleys(const std::vector<PeakOfParameter>& peaks) const {
     constexpr double rival = 1.1;
+    // Two branches that cross make the bottom of a valley, which its values need not be near.
+    constexpr double deeper = 0.25;
     std::vector<Place> valleys;
     if (peaks.size() < 3) return valleys;
-    const double limit = rival * lowest(peaks)->amplitude;
+    const double least = lowest(peaks)->amplitude;
     for (auto one = std::next(peaks.begin()); std::next(one) != peaks.end(); ++one) {
-      const double beside = std::min(std::prev(one)->amplitude, std::next(one)->amplitude);
+      const auto [beside, above] =
+          std::minmax(std::prev(one)->amplitude, std::next(one)->amplitude);
+      const bool may_be_lowest = one->amplitude < rival * least ||
+                                 one->amplitude - deeper * (above - one->amplitude) < least;
       const double width =
           position(std::next(one)->parameter) - position(std::prev(one)->parameter);
       // Less deep is the rounding of a flat stretch.
-      const bool valley = one->amplitude * flat_within < beside && one->amplitude < limit;
+      const bool valley = one->amplitude * flat_within < beside && may_be_lowest;
       const bool wide = width > bracket_left * on_scale(options_, rough_search);
       if (valley && wide && searched_.count(neighbourhood(one)) == 0) valleys.push_back(one);
     }

@@ -41,16 +41,17 @@ double first_below(Iterator begin, Iterator end, double limit) {
   return inside->parameter + share * (outside->parameter - inside->parameter);
 }
 
-/// Bounds that a search with few harmonics has narrowed: to what is nearly as low,
-/// within a factor of three.
-OptimumOptions about(const OptimumOptions& options, const Optimum& first) {
+/// Bounds that a search with few harmonics has narrowed about one of its minima: to what is nearly
+/// as low, within a factor of three.
+OptimumOptions about(const OptimumOptions& options, const std::vector<PeakOfParameter>& trace,
+                     const PeakOfParameter& minimum) {
   constexpr double clearly_higher = 1.6;  // few harmonics err by up to a third
   constexpr double factor = 3.0;
   constexpr double least_factor = 1.5;
   constexpr double share = 0.25;  // of a linear scale
   constexpr double least_share = 0.1;
   constexpr int n_scan = 5;
-  const double best = first.best.parameter;
+  const double best = minimum.parameter;
   const bool logarithmic = options.scale == ParameterScale::logarithmic;
   const double span = options.upper - options.lower;
   const auto beside = [&](double of_best, double of_span) {
@@ -59,9 +60,9 @@ OptimumOptions about(const OptimumOptions& options, const Optimum& first) {
   };
   const std::array farthest = beside(factor, share);
   const std::array nearest = beside(least_factor, least_share);
-  const double limit = clearly_higher * first.best.amplitude;
-  const double low = first_below(first.trace.begin(), first.trace.end(), limit);
-  const double high = first_below(first.trace.rbegin(), first.trace.rend(), limit);
+  const double limit = clearly_higher * minimum.amplitude;
+  const double low = first_below(trace.begin(), trace.end(), limit);
+  const double high = first_below(trace.rbegin(), trace.rend(), limit);
   OptimumOptions near = options;
   near.lower = std::max(options.lower, std::clamp(low, farthest[0], nearest[0]));
   near.upper = std::min(options.upper, std::clamp(high, nearest[1], farthest[1]));
@@ -70,7 +71,25 @@ OptimumOptions about(const OptimumOptions& options, const Optimum& first) {
   return near;
 }
 
-constexpr int few = 3;  // harmonics
+/// Other minima with few harmonics, nearly as low as the lowest: with those that are needed one of
+/// them may be the lowest.
+std::vector<PeakOfParameter> rivals_of(const Optimum& first, const OptimumOptions& searched) {
+  constexpr double rival = 1.1;
+  std::vector<PeakOfParameter> rivals;
+  const std::vector<PeakOfParameter>& trace = first.trace;
+  for (auto one = trace.begin(); one != trace.end(); ++one) {
+    const bool is_searched = one->parameter >= searched.lower && one->parameter <= searched.upper;
+    const bool is_lowest =
+        (one == trace.begin() || std::prev(one)->amplitude > one->amplitude) &&
+        (std::next(one) == trace.end() || std::next(one)->amplitude > one->amplitude);
+    if (is_lowest && !is_searched && one->amplitude < rival * first.best.amplitude) {
+      rivals.push_back(*one);
+    }
+  }
+  return rivals;
+}
+
+bool is_minimum(const Optimum& one) { return one.found || one.reason == NotFound::at_bound; }
 
 /// What a search before has cost.
 void add_work(Optimum& sum, const Optimum& before) {
@@ -79,9 +98,38 @@ void add_work(Optimum& sum, const Optimum& before) {
   sum.n_curves += before.n_curves;
 }
 
+/// Of two minima searched apart the lower one, which names the other where that is nearly as low,
+/// with the work of both.
+Optimum lower_of(const Optimum& one, const Optimum& other) {
+  const bool is_other =
+      is_minimum(other) && (!is_minimum(one) || other.best.amplitude < one.best.amplitude);
+  Optimum lower = is_other ? other : one;
+  const Optimum& higher = is_other ? one : other;
+  if (is_minimum(higher) && higher.best.amplitude <= nearly_as_low * lower.best.amplitude) {
+    lower.message +=
+        sentence("; another minimum of nearly the same height near ", higher.best.parameter);
+  }
+  add_work(lower, higher);
+  return lower;
+}
+
+constexpr int few = 3;  // harmonics
+
 void add_work(Optimum& sum, const PeakWork& work) {
   sum.iterations += work.iterations;
   sum.contact_evaluations += work.contact_evaluations;
+}
+
+/// As many values to a decade of a wide range as the usual number to each of three.
+OptimumOptions with_scan_of_range(OptimumOptions options) {
+  constexpr double usual_decades = 3.0;
+  constexpr int most = 100;
+  if (options.scale == ParameterScale::linear) return options;
+  const double decades = std::log10(options.upper / options.lower);
+  const double usual = options.n_scan - 1;
+  const double steps = std::max(usual, std::ceil(usual / usual_decades * decades - 1e-9));
+  options.n_scan = 1 + static_cast<int>(std::min(steps, most - 1.0));
+  return options;
 }
 
 using Clock = std::chrono::steady_clock;
@@ -208,20 +256,42 @@ class SearchByFewFirst {
         chosen, work_);
   }
 
+  /// About each of the minima of the first search that may be the lowest.
   Optimum about_first() {
-    ContinuationOptions chosen =
-        with_common_harmonics(family_, {first_.best.parameter}, range_, work_);
-    OptimumOptions near = about(options_, first_);
+    Optimum result = searched_about(first_.best);
+    for (const PeakOfParameter& rival : rivals_of(first_, about_best(first_.best))) {
+      if (is_stopped(result)) break;
+      Optimum other = searched_about(rival);
+      if (is_stopped(other)) {
+        add_work(result, other);
+        result.warnings.push_back(
+            sentence("out of time: another minimum, nearly as low with few harmonics, was not "
+                     "searched near ",
+                     rival.parameter));
+        break;
+      }
+      result = lower_of(result, other);
+    }
+    return result;
+  }
+
+  [[nodiscard]] OptimumOptions about_best(const PeakOfParameter& minimum) const {
+    return about(options_, first_.trace, minimum);
+  }
+
+  Optimum searched_about(const PeakOfParameter& minimum) {
+    ContinuationOptions chosen = with_common_harmonics(family_, {minimum.parameter}, range_, work_);
+    OptimumOptions near = about_best(minimum);
     const bool beside = std::ranges::any_of(first_.trace, &PeakOfParameter::detached);
     if (is_coarse_ && !beside) near.search_starts = 0;
     const SearchWith search = [&](const ContinuationOptions& given) {
       if (is_coarse_) {
-        if (std::optional<Searched> corrected = by_correcting(given, near))
+        if (std::optional<Searched> corrected = by_correcting(given, near, minimum.parameter))
           return std::move(*corrected);
       }
       Searched followed = by_following(family_, given, near);
       followed.optimum.notes.push_back(
-          sentence("with few harmonics the best value is ", first_.best.parameter) +
+          sentence("with few harmonics a best value is ", minimum.parameter) +
           sentence("; searched with those that it needs from ", near.lower) +
           sentence(" to ", near.upper));
       return followed;
@@ -244,9 +314,9 @@ class SearchByFewFirst {
 
   /// Empty: that does not go.
   std::optional<Searched> by_correcting(const ContinuationOptions& given,
-                                        const OptimumOptions& near) {
+                                        const OptimumOptions& near, double first_best) {
     add_work(work_, few_.result(), -1);  // more of its peaks are followed
-    CorrectedSearch corrected = search_corrected(few_, family_, given, near, first_.best.parameter);
+    CorrectedSearch corrected = search_corrected(few_, family_, given, near, first_best);
     add_work(work_, few_.result(), 1);
     if (!corrected.optimum) {
       n_curves_in_vain_ += corrected.n_curves;
@@ -270,8 +340,9 @@ class SearchByFewFirst {
 }  // namespace
 
 Optimum minimise_peak(const SceneFamily& family, const ContinuationOptions& given,
-                      const OptimumOptions& options) {
-  check(options);
+                      const OptimumOptions& asked) {
+  check(asked);
+  const OptimumOptions options = with_scan_of_range(asked);
   ContinuationOptions range = given;
   range.judge_stability = false;
   range.require_proof = false;

@@ -539,13 +539,40 @@ PeakOfParameter PeakFamilies::highest(double parameter) {
   options_.together(near.size(), [&](std::size_t i) {
     is_there[i] = is_reached(families_[near[i]], here) ? 1 : 0;
   });
+  const bool is_hole = hides_lost(near, is_there, here);
+  if (is_hole) static_cast<void>(curve_at(here, 0));
   asked_.insert(here);  // not before: stopped in the middle, the highest is not known
   for (std::size_t i = 0; i < near.size(); ++i) {
     if (is_there[i] != 0) static_cast<void>(left_to_another(near[i], here));
   }
+  if (is_hole) {
+    seed(here);
+    settle();
+  }
   PeakOfParameter best = highest_at(here);
   best.parameter = parameter;
   return best;
+}
+
+/// What is followed there would be the lowest of all, and a peak that is higher near by was lost on
+/// the way: only the curve tells whether it has vanished.
+bool PeakFamilies::hides_lost(const std::vector<std::size_t>& near,
+                              const std::vector<char>& is_there, double position) const {
+  if (curves_.contains(position)) return false;
+  const LocalPeak* here = highest_followed(position);
+  const double amplitude = here == nullptr ? 0.0 : here->amplitude;
+  const auto is_lower = [&](double other) { return highest_at(other).amplitude <= amplitude; };
+  if (std::ranges::any_of(asked_, is_lower)) return false;
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    if (is_there[i] != 0) continue;
+    const Peaks& peaks = families_[near[i]].peaks;
+    const auto above = peaks.lower_bound(position);
+    const bool higher_above = above != peaks.end() && above->second.amplitude > amplitude;
+    const bool higher_below =
+        above != peaks.begin() && std::prev(above)->second.amplitude > amplitude;
+    if (higher_above || higher_below) return true;
+  }
+  return false;
 }
 
 std::vector<PeakFamilies::FamilyPeak> PeakFamilies::followed_to(double parameter) const {

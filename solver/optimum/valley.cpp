@@ -26,7 +26,7 @@ std::string valley(const std::vector<PeakOfParameter>& trace, const PeakOfParame
     const bool lowest =
         (one == trace.begin() || std::prev(one)->amplitude > one->amplitude) &&
         (std::next(one) == trace.end() || std::next(one)->amplitude > one->amplitude);
-    if (elsewhere && lowest && one->amplitude <= 1.02 * best.amplitude) {
+    if (elsewhere && lowest && one->amplitude <= nearly_as_low * best.amplitude) {
       text << "; another minimum of nearly the same height near " << one->parameter;
     }
   }

@@ -10,7 +10,8 @@
 
 namespace microslip::solver {
 
-constexpr double as_good = 1.01;  ///< times the minimum
+constexpr double as_good = 1.01;        ///< times the minimum
+constexpr double nearly_as_low = 1.02;  ///< likewise, of minima elsewhere that are named
 
 using Place = std::vector<PeakOfParameter>::const_iterator;
 

@@ -162,6 +162,33 @@ TEST(HarmonicsCheck, LooksForHigherPeaksWhereAHarmonicResonates) {
   EXPECT_NEAR(one.richer->frequency, truth.frequency, 1e-3 * truth.frequency);
 }
 
+// Two peaks of nearly one height, of which the second harmonic takes more from the first: the other
+// is higher by 2 % then, and at another frequency.
+TEST(HarmonicsCheck, AnotherPeakCountsHoweverLittleItIsHigher) {
+  const auto with = [](const char* harmonics) {
+    return R"([model]
+kind = "modal"
+[modal]
+frequency = [100, 140, 286.0721767]
+damping_ratio = [0.004, 0.004, 0.0003]
+force_sine = [1, 1.5, 0]
+output = [1, 1, 0.6]
+points = [
+  { weight = 1, tangential_stiffness = 100000, normal_stiffness = 100000, friction_coefficient = 0.4, preload = 8, phi_u_1 = 0.5, phi_u_2 = 0.6, phi_u_3 = 0.5, phi_v_1 = 0.3, phi_v_2 = -0.5, phi_v_3 = 0.7 },
+]
+[response]
+frequency = [92, 170]
+harmonics = )" +
+           std::string(harmonics) + "\n";
+  };
+  const CurveResult one = traced(with("1"));
+  const solver::ResponsePoint truth = *highest_peak(traced(with("6")).curve);
+  ASSERT_GT(truth.frequency, 1.2 * highest_peak(one.curve)->frequency);
+  ASSERT_TRUE(one.richer && one.richer->change);
+  EXPECT_NEAR(one.richer->amplitude, truth.amplitude, 0.01 * truth.amplitude);
+  EXPECT_NEAR(one.richer->frequency, truth.frequency, 0.01 * truth.frequency);
+}
+
 /// The curve with chosen harmonics, stopped when this has been asked for so many times.
 solver::ResponseCurve stopped_after(long most, long& asked) {
   const SceneDescription scene =

@@ -58,6 +58,52 @@ points = [
 frequency = [15, 30]
 )toml";
 
+/// Two points that rub under loads far apart: the peak has two minima over the factor of the loads.
+/// @param modes  frequency, damping_ratio, force_sine, output.
+std::string two_valleys(const std::string& modes, const std::string& points,
+                        const std::string& response) {
+  return "[model]\nkind = \"modal\"\n[modal]\n" + modes + "points = [" + points +
+         "]\n[response]\noptimum = \"preload\"\n" + response;
+}
+
+const char* const far_apart = R"toml(frequency = [50.0, 192.31, 649.2]
+damping_ratio = 0.002
+force_sine = [1.0, 0.24978, 0.11033]
+output = [1.0, 0.15389, -0.11546]
+)toml";
+const char* const far_apart_points = R"toml(
+{ weight = 1, tangential_stiffness = 142070, normal_stiffness = 0, friction_coefficient = 0.3, preload = 1, phi_u_1 = 0.65385, phi_u_2 = 0.10026, phi_u_3 = -0.30689 },
+{ weight = 1, tangential_stiffness = 119980, normal_stiffness = 0, friction_coefficient = 0.3, preload = 45.023, phi_u_1 = 0.74858, phi_u_2 = -0.75156, phi_u_3 = 0.50394 },
+)toml";
+
+const char* const near_by = R"toml(frequency = [50.0, 273]
+damping_ratio = [0.002, 0.0003]
+force_sine = [1.0, 0.1]
+output = [1.0, 1]
+)toml";
+const char* const near_by_points = R"toml(
+{ weight = 1, tangential_stiffness = 55764, normal_stiffness = 81775, friction_coefficient = 0.3, preload = 1, phi_u_1 = 0.81882, phi_u_2 = 0.5, phi_v_1 = -0.10644, phi_v_2 = -0.1 },
+{ weight = 1, tangential_stiffness = 71880, normal_stiffness = 0, friction_coefficient = 0.3, preload = 30.385, phi_u_1 = 0.6922, phi_u_2 = 0.5 },
+)toml";
+
+/// A peak that jumps beside the minimum of the others.
+const char* const jump_text = R"toml([model]
+kind = "modal"
+[modal]
+frequency = [50.0, 152.5]
+damping_ratio = 0.002
+force_sine = [1.0, -0.413]
+output = [1.0, 0.3]
+points = [
+  { weight = 1, tangential_stiffness = 177700, normal_stiffness = 265580, friction_coefficient = 0.4, preload = 1, phi_u_1 = 0.61987, phi_u_2 = -0.10105, phi_v_1 = -0.48821, phi_v_2 = 0.015184 },
+]
+[response]
+frequency = [40.0, 84.011]
+harmonics = 1
+optimum = "preload"
+optimum_range = [0.02, 40]
+)toml";
+
 struct Found {
   solver::Optimum best;
   OptimumBracket bracket;
@@ -216,6 +262,43 @@ TEST(OptimumSearch, SaysThatItDoesNotIntegrateInTime) {
   const SceneDescription plain = parse_scene(bar_text, "bar", ".", {});
   const ReducedModel other = model_alone(plain);
   EXPECT_EQ(OptimumSearch(other, plain, nullptr, 1).warning(), "");
+}
+
+solver::Optimum best_of(const std::string& text, const Overrides& overrides = {}) {
+  return search(parse_scene(text, "scene.toml", "/nowhere", overrides), false).best;
+}
+
+// The values of a scan over five decades lie far from the bottom of the deeper valley.
+TEST(OptimumSearch, FindsTheDeeperOfTwoValleysOverManyDecades) {
+  const solver::Optimum best =
+      best_of(two_valleys(far_apart, far_apart_points,
+                          "frequency = [35, 908.89]\nharmonics = 1\noptimum_range = [0.00044421, "
+                          "60]\n"));
+  ASSERT_TRUE(best.found) << best.message;
+  EXPECT_NEAR(best.best.parameter, 0.148, 0.01);
+  EXPECT_LT(best.best.amplitude, 4.69e-5);  // the other valley: 5.04e-5 at 7.8
+}
+
+// With three harmonics the other one is lower.
+TEST(OptimumSearch, AsksEveryValleyForTheHarmonicsThatItNeeds) {
+  const solver::Optimum best =
+      best_of(two_valleys(near_by, near_by_points,
+                          "frequency = [40, 72.294]\nharmonics = 5\noptimum_range = [0.01, 60]\n"),
+              {"accuracy.tolerance=off"});
+  ASSERT_TRUE(best.found) << best.message;
+  EXPECT_NEAR(best.best.parameter, 6.2, 0.1);
+  EXPECT_LT(best.best.amplitude, 8.12e-5);  // the other valley: 8.2e-5 at 0.195
+  EXPECT_NE(best.message.find("another minimum of nearly the same height near 0.19"),
+            std::string::npos)
+      << best.message;
+}
+
+// What is followed past the jump is lower than all, and not the highest peak of its curve.
+TEST(OptimumSearch, DoesNotTakeAPeakForTheHighestWhereThatWasLost) {
+  const solver::Optimum best = best_of(jump_text);
+  ASSERT_TRUE(best.found) << best.message;
+  EXPECT_NEAR(best.best.parameter, 10.87, 0.02);
+  EXPECT_NEAR(best.best.amplitude, 5.741e-5, 1e-8);
 }
 
 }  // namespace
