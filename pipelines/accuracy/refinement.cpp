@@ -12,6 +12,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "pipelines/effects/effect_choice.hpp"
+
 namespace microslip::pipelines {
 namespace {
 
@@ -191,7 +193,10 @@ Moves moves_of_mesh(const SceneDescription& scene, bool extrapolated) {
 Moves moves_of(const std::string& source, const SceneDescription& scene, double tolerance,
                double error, bool extrapolated) {
   const bool meshed = !std::holds_alternative<ModalModel>(scene.model);
-  if (source == "harmonics") return moves_of_harmonics(scene, tolerance, error);
+  if (source == "harmonics") {
+    if (setting_of(scene, "higher_harmonics") == "off") return {};
+    return moves_of_harmonics(scene, tolerance, error);
+  }
   if (source == "cells" && meshed) return moves_of_cells(scene);
   if (source == "fit" && meshed) return moves_of_fit();
   if (source == "second_direction") return moves_of_second_direction();
@@ -388,13 +393,24 @@ std::map<std::string, Moves> all_moves(const SceneDescription& scene,
   return result;
 }
 
+/// The key that a user may set to have less of an error, where no move of this program does.
+std::string key_of(const std::string& source, const SceneDescription& scene) {
+  const bool one_harmonic = setting_of(scene, "higher_harmonics") == "off";
+  if (source == "harmonics" && one_harmonic) return " (effects.higher_harmonics = \"off\")";
+  if (scene.kind != "bar") return "";
+  if (source == "cells") return " (more contact.points)";
+  return source == "basis" ? " (larger modes.count)" : "";
+}
+
 /// Sources without a move whose error is no small part of the tolerance.
-std::string stuck_sources(const std::map<std::string, Moves>& moves,
+std::string stuck_sources(const std::map<std::string, Moves>& moves, const SceneDescription& scene,
                           const std::vector<Errors>& errors, double tolerance) {
   constexpr double small = 0.05;
   std::vector<std::string> names;
   for (const auto& [source, own] : moves) {
-    if (own.size() == 1 && largest_of(errors, source) > small * tolerance) names.push_back(source);
+    if (own.size() == 1 && largest_of(errors, source) > small * tolerance) {
+      names.push_back(source + key_of(source, scene));
+    }
   }
   return fmt::format("{}", fmt::join(names, ", "));
 }
@@ -434,7 +450,7 @@ std::optional<Refinement> refinement(const SceneDescription& scene,
   const std::vector<Errors> errors = errors_of(budgets, scene.accuracy.goals);
   const std::map<std::string, Moves> moves =
       all_moves(scene, errors, tolerance, spent.extrapolated);
-  left = stuck_sources(moves, errors, tolerance);
+  left = stuck_sources(moves, scene, errors, tolerance);
   const Plans plans(errors, moves, spent, tolerance);
   const Plan& plan = plans.best();
   Refinement result{.scene = scene,

@@ -1,11 +1,15 @@
 #include "pipelines/accuracy/richer_models.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <utility>
+#include <variant>
 
 #include "contact/contact_force.hpp"
 #include "pipelines/accuracy/coarser_mesh.hpp"
 #include "pipelines/response/solver_scenes.hpp"
+#include "pipelines/scene/scene_file.hpp"
 #include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {
@@ -80,6 +84,63 @@ std::optional<RicherModel> with_more_shapes(const ReducedModel& model,
   return result;
 }
 
+/// A bar has its modes and contact points by formulas: with more of either it is another scene.
+/// @return empty: it cannot have as many, or its modes are picked one by one.
+std::optional<RicherModel> bar_with(const char* source, const ReducedModel& model,
+                                    const SceneDescription& scene, const char* key,
+                                    Eigen::Index n) {
+  std::vector<std::string> warnings;  // those of the scene itself are told already
+  try {
+    const SceneDescription other = with_value(scene, key, static_cast<double>(n));
+    RicherModel richer{source, model_of(other, nullptr, warnings)};
+    const Eigen::Index n_free = model.frequency.size() - model.n_attachment;
+    const Eigen::Index more = richer.model.frequency.size() - richer.model.n_attachment;
+    if (more == n_free && n_cells(richer.model) == n_cells(model)) return std::nullopt;
+    richer.model.effects = model.effects;
+    // The first modes are the same; shapes, the last, are not.
+    if (more > n_free) {
+      richer.embedding =
+          Eigen::MatrixXd::Zero(richer.model.frequency.size(), model.frequency.size());
+      richer.embedding.topLeftCorner(n_free, n_free).setIdentity();
+    }
+    return richer;
+  } catch (const SceneError&) {
+    return std::nullopt;
+  } catch (const RefusedError&) {
+    return std::nullopt;
+  }
+}
+
+/// Four times the contact points, and three times the modes or four more. Errors of points fall as
+/// their number grows, or faster, but not evenly: places where slip ends lie between them. Errors
+/// of modes alone fall as their number grows, beside a residual as its third power.
+void add_bar(const ReducedModel& model, const SceneDescription& scene,
+             const std::function<bool(const char*)>& asked,
+             const std::function<void(const char*, std::optional<RicherModel>)>& keep) {
+  constexpr Eigen::Index more_points = 4;
+  constexpr Eigen::Index times_modes = 3;
+  constexpr Eigen::Index least_more = 4;
+  constexpr double of_points = 4.0 / 3.0;
+  const auto* bar = std::get_if<ModalModel>(&scene.model);
+  if (scene.kind != "bar" || bar == nullptr || model.patches.empty()) return;
+  const auto with_share = [](std::optional<RicherModel> richer, double share) {
+    if (richer) richer->share = share;
+    return richer;
+  };
+  if (asked("cells")) {
+    keep("cells",
+         with_share(bar_with("cells", model, scene, "contact.points", more_points * n_cells(model)),
+                    of_points));
+  }
+  if (!asked("basis")) return;
+  const Eigen::Index n_free = model.frequency.size() - model.n_attachment;
+  const Eigen::Index more = std::max(times_modes * n_free, n_free + least_more);
+  const double order = bar->residual == ResidualKind::none ? 1.0 : 3.0;
+  const double left = std::pow(static_cast<double>(n_free) / static_cast<double>(more), order);
+  keep("basis",
+       with_share(bar_with("basis", model, scene, "modes.count", more), 1.0 / (1.0 - left)));
+}
+
 bool is_fitted(const ReducedModel& model) {
   return std::ranges::any_of(model.patches,
                              [](const contact::Patch& patch) { return patch.fit_degree >= 0; });
@@ -124,7 +185,10 @@ RicherModels richer_models(const ReducedModel& model, const SceneDescription& sc
   if (asked("instants") && contact::is_sampled(model.patches, model.effects)) {
     result.models.push_back(with_located_events(model));
   }
-  if (structure == nullptr) return result;
+  if (structure == nullptr) {
+    add_bar(model, scene, asked, keep);
+    return result;
+  }
   if (asked("eigensolver")) result.eigen_residual = structure->modes.basis.residual;
   if (model.patches.empty()) {
     if (asked("mesh")) keep("mesh", coarser_mesh(model, scene, *structure, result.note));

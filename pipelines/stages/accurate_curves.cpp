@@ -196,7 +196,13 @@ void refine_to_tolerance(Solution& solution, const RunOptions& options, RunRecor
   }
   const bool met = accuracy.reached <= accuracy.asked;
   accuracy.out_of_time = !met && was_cut_short();
-  if (met) {
+  const bool lacks_basis =
+      std::ranges::find(accuracy.not_known, "basis") != accuracy.not_known.end();
+  if (met && lacks_basis) {
+    record.progress().warning(reached_text(accuracy) +
+                              "; what more modes do is not known: modes.residual = \"attachment\" "
+                              "has shapes that tell it, or more modes.count shows it");
+  } else if (met) {
     record.progress().info(reached_text(accuracy));
   } else if (!has_budgets(solution)) {
     accuracy.message = "no curve has an error that this program tells";

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "pipelines/accuracy/richer_models.hpp"
 #include "pipelines/description/curve_request.hpp"
 #include "pipelines/effects/model_family.hpp"
 #include "pipelines/response/harmonics_check.hpp"
@@ -102,6 +103,65 @@ Traced traced(const std::string& harmonics, double preload, Eigen::Index n_attac
   check_harmonics(model, scene, preload, result.curve);
   result.budget = error_budget(model, scene, {}, result.curve);
   return result;
+}
+
+constexpr const char* bar = R"([model]
+kind = "bar"
+youngs_modulus = "200 GPa"
+area = "1e-4 m^2"
+density = 7800
+length = "1 m"
+end_stiffness = "80 kN/mm"
+[modes]
+count = 2
+damping_ratio = "0.5 %"
+[contact]
+tangential_stiffness = "1e7 N/m^2"
+friction_coefficient = 0.3
+load = "2000 N/m"
+points = 10
+[excitation]
+force = "0.2 kN"
+[response]
+frequency = [900, 1200]
+harmonics = 3
+)";
+
+// Against a bar of 24 modes and 400 points.
+TEST(ErrorBudget, OfABarHasItsModesAndItsContactPoints) {
+  const auto peak_of = [](const std::vector<std::string>& overrides, CurveBudget* told) {
+    const SceneDescription scene = parse_scene(bar, "scene.toml", "/nowhere", overrides);
+    std::vector<std::string> warnings;
+    const ReducedModel model = model_of(scene, nullptr, warnings);
+    const CurveResult curve =
+        trace_curve(model, scene, CurveRequest{"curve", 1.0}, [](const auto&) { return true; });
+    if (told != nullptr) {
+      *told = error_budget(model, scene, richer_models(model, scene, nullptr), curve);
+    }
+    return highest_peak(curve.curve)->amplitude;
+  };
+  for (const char* residual : {"modes.residual=none", "modes.residual=stiffness"}) {
+    CurveBudget told;
+    const double own = peak_of({residual}, &told);
+    const auto beside = [&](const char* key) {
+      return peak_of({residual, key}, nullptr) / own - 1.0;
+    };
+    const auto effect = [&](const char* source) {
+      for (const ErrorRow& row : told.rows) {
+        if (row.source == source && row.goal == std::string(peak_amplitude_goal)) return row.effect;
+      }
+      ADD_FAILURE() << source << ", " << residual;
+      return 0.0;
+    };
+    const double cells = beside("contact.points=400");
+    const double basis = beside("modes.count=24");
+    std::printf("%s: cells told %.2e, true %.2e; basis told %.2e, true %.2e\n", residual,
+                effect("cells"), cells, effect("basis"), basis);
+    EXPECT_GT(std::abs(effect("cells")), 0.7 * std::abs(cells)) << residual;
+    EXPECT_LT(std::abs(effect("cells")), 1.5 * std::abs(cells)) << residual;
+    EXPECT_GT(std::abs(effect("basis")), 0.5 * std::abs(basis)) << residual;
+    EXPECT_LT(std::abs(effect("basis")), 2e-3) << residual;
+  }
 }
 
 double effect_of(const CurveBudget& budget, const char* goal) {

@@ -59,6 +59,14 @@ TEST(Refinement, KeepsTheToleranceForTheGoalsThatAreAsked) {
   EXPECT_GT(step->scene.settings.patches[0].n_points, scene.settings.patches[0].n_points);
 }
 
+TEST(Refinement, ObeysHarmonicsThatAreOff) {
+  SceneDescription scene = blade();
+  scene.effects.emplace_back("higher_harmonics", "off");
+  std::string left;
+  EXPECT_FALSE(refinement(scene, {budget({{"harmonics", 0.2}})}, tolerance, spent, left));
+  EXPECT_EQ(left, "harmonics (effects.higher_harmonics = \"off\")");
+}
+
 TEST(Refinement, SharesTheToleranceAmongSources) {
   std::string left;
   const auto step =
