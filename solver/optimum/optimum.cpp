@@ -71,22 +71,34 @@ OptimumOptions about(const OptimumOptions& options, const std::vector<PeakOfPara
   return near;
 }
 
+/// Whether amplitudes rise between a value and a minimum: else it is of the same valley, or of a
+/// flat stretch beside it.
+bool is_apart(const std::vector<PeakOfParameter>& trace, const PeakOfParameter& one,
+              const PeakOfParameter& minimum) {
+  const auto [low, high] = std::minmax(one.parameter, minimum.parameter);
+  return std::ranges::any_of(trace, [&, low = low, high = high](const PeakOfParameter& between) {
+    return between.parameter > low && between.parameter < high &&
+           between.amplitude > as_good * one.amplitude;
+  });
+}
+
 /// Other minima with few harmonics, nearly as low as the lowest: with those that are needed one of
-/// them may be the lowest.
+/// them may be the lowest. Two at most, the lowest first.
 std::vector<PeakOfParameter> rivals_of(const Optimum& first, const OptimumOptions& searched) {
   constexpr double rival = 1.1;
-  std::vector<PeakOfParameter> rivals;
-  const std::vector<PeakOfParameter>& trace = first.trace;
-  for (auto one = trace.begin(); one != trace.end(); ++one) {
-    const bool is_searched = one->parameter >= searched.lower && one->parameter <= searched.upper;
-    const bool is_lowest =
-        (one == trace.begin() || std::prev(one)->amplitude > one->amplitude) &&
-        (std::next(one) == trace.end() || std::next(one)->amplitude > one->amplitude);
-    if (is_lowest && !is_searched && one->amplitude < rival * first.best.amplitude) {
-      rivals.push_back(*one);
-    }
+  constexpr std::size_t most = 2;
+  std::vector<PeakOfParameter> by_amplitude = first.trace;
+  std::ranges::stable_sort(by_amplitude, {}, &PeakOfParameter::amplitude);
+  std::vector<PeakOfParameter> minima{first.best};
+  for (const PeakOfParameter& one : by_amplitude) {
+    if (one.amplitude >= rival * first.best.amplitude || minima.size() > most) break;
+    if (one.parameter >= searched.lower && one.parameter <= searched.upper) continue;
+    const bool apart = std::ranges::all_of(
+        minima, [&](const auto& other) { return is_apart(first.trace, one, other); });
+    if (apart) minima.push_back(one);
   }
-  return rivals;
+  minima.erase(minima.begin());
+  return minima;
 }
 
 bool is_minimum(const Optimum& one) { return one.found || one.reason == NotFound::at_bound; }
