@@ -532,19 +532,31 @@ std::vector<std::size_t> PeakFamilies::highest_near(double position) const {
   return families;
 }
 
-PeakOfParameter PeakFamilies::highest(double parameter) {
-  const double here = known_position(parameter);
-  const std::vector<std::size_t> near = highest_near(here);
+/// The highest near by are followed there.
+void PeakFamilies::follow_near(double position) {
+  const std::vector<std::size_t> near = highest_near(position);
   std::vector<char> is_there(near.size());  // not of bits: written side by side
   options_.together(near.size(), [&](std::size_t i) {
-    is_there[i] = is_reached(families_[near[i]], here) ? 1 : 0;
+    is_there[i] = is_reached(families_[near[i]], position) ? 1 : 0;
   });
-  const bool is_hole = hides_lost(near, is_there, here);
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    if (is_there[i] != 0) static_cast<void>(left_to_another(near[i], position));
+  }
+}
+
+/// Peaks that were not known yet are followed to the values that were asked for before.
+void PeakFamilies::follow_to_asked() {
+  for (const double position : asked_) {
+    if (!curves_.contains(position)) follow_near(position);
+  }
+}
+
+PeakOfParameter PeakFamilies::highest(double parameter) {
+  const double here = known_position(parameter);
+  follow_near(here);
+  const bool is_hole = hides_lost(here);
   if (is_hole) static_cast<void>(curve_at(here, 0));
   asked_.insert(here);  // not before: stopped in the middle, the highest is not known
-  for (std::size_t i = 0; i < near.size(); ++i) {
-    if (is_there[i] != 0) static_cast<void>(left_to_another(near[i], here));
-  }
   if (is_hole) {
     seed(here);
     settle();
@@ -554,25 +566,24 @@ PeakOfParameter PeakFamilies::highest(double parameter) {
   return best;
 }
 
-/// What is followed there would be the lowest of all, and a peak that is higher near by was lost on
-/// the way: only the curve tells whether it has vanished.
-bool PeakFamilies::hides_lost(const std::vector<std::size_t>& near,
-                              const std::vector<char>& is_there, double position) const {
+/// What is followed there would be the lowest of all, and a peak that is higher near by is not known
+/// there: only the curve tells whether it has vanished.
+bool PeakFamilies::hides_lost(double position) const {
   if (curves_.contains(position)) return false;
   const LocalPeak* here = highest_followed(position);
   const double amplitude = here == nullptr ? 0.0 : here->amplitude;
   const auto is_lower = [&](double other) { return highest_at(other).amplitude <= amplitude; };
   if (std::ranges::any_of(asked_, is_lower)) return false;
-  for (std::size_t i = 0; i < near.size(); ++i) {
-    if (is_there[i] != 0) continue;
-    const Peaks& peaks = families_[near[i]].peaks;
+  return std::ranges::any_of(families_, [&](const Followed& family) {
+    const Peaks& peaks = family.peaks;
+    if (peaks.contains(position)) return false;
     const auto above = peaks.lower_bound(position);
-    const bool higher_above = above != peaks.end() && above->second.amplitude > amplitude;
-    const bool higher_below =
-        above != peaks.begin() && std::prev(above)->second.amplitude > amplitude;
-    if (higher_above || higher_below) return true;
-  }
-  return false;
+    const auto is_higher = [&](const auto& peak) {
+      return std::abs(peak.first - position) <= spacing_ && peak.second.amplitude > amplitude;
+    };
+    return (above != peaks.end() && is_higher(*above)) ||
+           (above != peaks.begin() && is_higher(*std::prev(above)));
+  });
 }
 
 std::vector<PeakFamilies::FamilyPeak> PeakFamilies::followed_to(double parameter) const {
@@ -590,8 +601,10 @@ std::vector<PeakFamilies::FamilyPeak> PeakFamilies::followed_to(double parameter
 bool PeakFamilies::confirm(double parameter, int search_starts) {
   const double followed = highest(parameter).amplitude;
   const double here = known_position(parameter);
+  const std::size_t n_families = families_.size();
   seed(here, search_starts);
   settle();
+  if (families_.size() > n_families) follow_to_asked();
   const Curve& curve = curve_at(here, search_starts);
   if (!curve.traced.complete || curve.high.empty())
     return true;  // named in the notes; nothing better is known

@@ -170,8 +170,9 @@ class PeakFamilies {
   [[nodiscard]] std::optional<LocalPeak> followed(const Peaks& peaks, Peaks::const_iterator nearest,
                                                   double target, PeakWork& work) const;
   [[nodiscard]] std::vector<std::size_t> highest_near(double position) const;
-  [[nodiscard]] bool hides_lost(const std::vector<std::size_t>& near,
-                                const std::vector<char>& is_there, double position) const;
+  void follow_near(double position);
+  void follow_to_asked();
+  [[nodiscard]] bool hides_lost(double position) const;
   [[nodiscard]] bool known_elsewhere(std::size_t family, double position) const;
   bool left_to_another(std::size_t family, double position);
   [[nodiscard]] static bool is_anothers(const Followed& family, Peaks::const_iterator nearest,
