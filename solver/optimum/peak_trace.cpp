@@ -566,8 +566,8 @@ PeakOfParameter PeakFamilies::highest(double parameter) {
   return best;
 }
 
-/// What is followed there would be the lowest of all, and a peak that is higher near by is not known
-/// there: only the curve tells whether it has vanished.
+/// What is followed there would be the lowest of all, and a peak that is higher near by is not
+/// known there: only the curve tells whether it has vanished.
 bool PeakFamilies::hides_lost(double position) const {
   if (curves_.contains(position)) return false;
   const LocalPeak* here = highest_followed(position);
