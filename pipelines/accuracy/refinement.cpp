@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "pipelines/accuracy/bar_counts.hpp"
 #include "pipelines/effects/effect_choice.hpp"
 
 namespace microslip::pipelines {
@@ -190,6 +191,32 @@ Moves moves_of_mesh(const SceneDescription& scene, bool extrapolated) {
   return moves;
 }
 
+/// More contact points of a bar, or more modes, whose curves take as long as their square.
+Moves moves_of_bar(const std::string& source, const SceneDescription& scene) {
+  const std::optional<BarCounts> own = bar_counts(scene);
+  if (!own) return {};
+  constexpr int most_modes = 200;
+  const bool points = source == "cells";
+  Moves moves;
+  for (const int times : {2, 4, 8, 16, 32}) {
+    BarCounts more = *own;
+    (points ? more.points : more.modes) *= times;
+    if (more.points > most_points || more.modes > most_modes) break;
+    const double factor = points ? left_with_points(times) : left_with_modes(scene, times);
+    moves.push_back({.factor = factor,
+                     .curves = points ? times : static_cast<double>(times) * times,
+                     .text = points ? fmt::format("{} contact points", more.points)
+                                    : fmt::format("{} modes", more.modes),
+                     // Each of the two moves keeps what the other has done.
+                     .apply = [points, more](SceneDescription& finer) {
+                       BarCounts counts = *bar_counts(finer);
+                       (points ? counts.points : counts.modes) = points ? more.points : more.modes;
+                       finer = with_bar_counts(std::move(finer), counts);
+                     }});
+  }
+  return moves;
+}
+
 Moves moves_of(const std::string& source, const SceneDescription& scene, double tolerance,
                double error, bool extrapolated) {
   const bool meshed = !std::holds_alternative<ModalModel>(scene.model);
@@ -198,6 +225,7 @@ Moves moves_of(const std::string& source, const SceneDescription& scene, double 
     return moves_of_harmonics(scene, tolerance, error);
   }
   if (source == "cells" && meshed) return moves_of_cells(scene);
+  if (source == "cells" || source == "basis") return moves_of_bar(source, scene);
   if (source == "fit" && meshed) return moves_of_fit();
   if (source == "second_direction") return moves_of_second_direction();
   if (source == "mesh") return moves_of_mesh(scene, extrapolated);
@@ -393,13 +421,10 @@ std::map<std::string, Moves> all_moves(const SceneDescription& scene,
   return result;
 }
 
-/// The key that a user may set to have less of an error, where no move of this program does.
+/// The key that keeps this program from having less of an error.
 std::string key_of(const std::string& source, const SceneDescription& scene) {
   const bool one_harmonic = setting_of(scene, "higher_harmonics") == "off";
-  if (source == "harmonics" && one_harmonic) return " (effects.higher_harmonics = \"off\")";
-  if (scene.kind != "bar") return "";
-  if (source == "cells") return " (more contact.points)";
-  return source == "basis" ? " (larger modes.count)" : "";
+  return source == "harmonics" && one_harmonic ? " (effects.higher_harmonics = \"off\")" : "";
 }
 
 /// Sources without a move whose error is no small part of the tolerance.

@@ -1,15 +1,13 @@
 #include "pipelines/accuracy/richer_models.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <utility>
-#include <variant>
 
 #include "contact/contact_force.hpp"
+#include "pipelines/accuracy/bar_counts.hpp"
 #include "pipelines/accuracy/coarser_mesh.hpp"
 #include "pipelines/response/solver_scenes.hpp"
-#include "pipelines/scene/scene_file.hpp"
 #include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {
@@ -84,25 +82,17 @@ std::optional<RicherModel> with_more_shapes(const ReducedModel& model,
   return result;
 }
 
-/// A bar has its modes and contact points by formulas: with more of either it is another scene.
-/// @return empty: it cannot have as many, or its modes are picked one by one.
+/// @return empty: the bar cannot have as many, or its modes are picked one by one.
 std::optional<RicherModel> bar_with(const char* source, const ReducedModel& model,
-                                    const SceneDescription& scene, const char* key,
-                                    Eigen::Index n) {
+                                    const SceneDescription& scene, const BarCounts& counts) {
   std::vector<std::string> warnings;  // those of the scene itself are told already
   try {
-    const SceneDescription other = with_value(scene, key, static_cast<double>(n));
-    RicherModel richer{source, model_of(other, nullptr, warnings)};
-    const Eigen::Index n_free = model.frequency.size() - model.n_attachment;
-    const Eigen::Index more = richer.model.frequency.size() - richer.model.n_attachment;
-    if (more == n_free && n_cells(richer.model) == n_cells(model)) return std::nullopt;
+    RicherModel richer{source, model_of(with_bar_counts(scene, counts), nullptr, warnings)};
+    const Eigen::Index n = model.frequency.size();
+    const Eigen::Index more = richer.model.frequency.size();
+    if (more == n && n_cells(richer.model) == n_cells(model)) return std::nullopt;
     richer.model.effects = model.effects;
-    // The first modes are the same; shapes, the last, are not.
-    if (more > n_free) {
-      richer.embedding =
-          Eigen::MatrixXd::Zero(richer.model.frequency.size(), model.frequency.size());
-      richer.embedding.topLeftCorner(n_free, n_free).setIdentity();
-    }
+    if (more > n) richer.embedding = Eigen::MatrixXd::Identity(more, n);  // the first are the same
     return richer;
   } catch (const SceneError&) {
     return std::nullopt;
@@ -111,34 +101,28 @@ std::optional<RicherModel> bar_with(const char* source, const ReducedModel& mode
   }
 }
 
-/// Four times the contact points, and three times the modes or four more. Errors of points fall as
-/// their number grows, or faster, but not evenly: places where slip ends lie between them. Errors
-/// of modes alone fall as their number grows, beside a residual as its third power.
+/// Four times the contact points, and three times the modes or four more.
 void add_bar(const ReducedModel& model, const SceneDescription& scene,
              const std::function<bool(const char*)>& asked,
              const std::function<void(const char*, std::optional<RicherModel>)>& keep) {
-  constexpr Eigen::Index more_points = 4;
-  constexpr Eigen::Index times_modes = 3;
-  constexpr Eigen::Index least_more = 4;
-  constexpr double of_points = 4.0 / 3.0;
-  const auto* bar = std::get_if<ModalModel>(&scene.model);
-  if (scene.kind != "bar" || bar == nullptr || model.patches.empty()) return;
-  const auto with_share = [](std::optional<RicherModel> richer, double share) {
-    if (richer) richer->share = share;
+  constexpr int times_points = 4;
+  constexpr int times_modes = 3;
+  constexpr int least_more = 4;
+  const std::optional<BarCounts> own = bar_counts(scene);
+  if (!own || model.patches.empty()) return;
+  const auto with_share = [](std::optional<RicherModel> richer, double left) {
+    if (richer) richer->share = 1.0 / (1.0 - left);
     return richer;
   };
   if (asked("cells")) {
-    keep("cells",
-         with_share(bar_with("cells", model, scene, "contact.points", more_points * n_cells(model)),
-                    of_points));
+    const BarCounts more{times_points * own->points, own->modes};
+    keep("cells", with_share(bar_with("cells", model, scene, more),
+                             left_with_points(static_cast<double>(times_points))));
   }
   if (!asked("basis")) return;
-  const Eigen::Index n_free = model.frequency.size() - model.n_attachment;
-  const Eigen::Index more = std::max(times_modes * n_free, n_free + least_more);
-  const double order = bar->residual == ResidualKind::none ? 1.0 : 3.0;
-  const double left = std::pow(static_cast<double>(n_free) / static_cast<double>(more), order);
-  keep("basis",
-       with_share(bar_with("basis", model, scene, "modes.count", more), 1.0 / (1.0 - left)));
+  const BarCounts more{own->points, std::max(times_modes * own->modes, own->modes + least_more)};
+  const double times = static_cast<double>(more.modes) / own->modes;
+  keep("basis", with_share(bar_with("basis", model, scene, more), left_with_modes(scene, times)));
 }
 
 bool is_fitted(const ReducedModel& model) {

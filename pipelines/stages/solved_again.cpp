@@ -88,7 +88,8 @@ bool solve(const Solution& before, const Refinement& step, int jobs, Progress& p
   if (cut_short()) return false;
   now.model = model_of(now.scene, now.structure.get(), round.warnings);
   const std::vector<std::size_t> again = curves_to_solve(before, step);
-  const bool same_modes = now.structure == before.structure;
+  const bool same_modes = now.structure == before.structure &&
+                          now.model.frequency.size() == before.model.frequency.size();
   const std::vector<CurveRequest> all = curve_requests(now.scene);
   std::vector<CurveRequest> requests;
   std::vector<const solver::ResponseCurve*> near;

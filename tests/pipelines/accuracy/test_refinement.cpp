@@ -7,6 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include "pipelines/accuracy/bar_counts.hpp"
+#include "pipelines/scene/scene_file.hpp"
+
 namespace microslip::pipelines::test_refinement {
 namespace {
 
@@ -57,6 +60,26 @@ TEST(Refinement, KeepsTheToleranceForTheGoalsThatAreAsked) {
   const auto step = refinement(scene, {told}, tolerance, spent, left);
   ASSERT_TRUE(step.has_value());
   EXPECT_GT(step->scene.settings.patches[0].n_points, scene.settings.patches[0].n_points);
+}
+
+// One after the other would forget what the first has done: both are read by formulas.
+TEST(Refinement, GivesABarMorePointsAndModes) {
+  const SceneDescription bar =
+      read_scene(MICROSLIP_SCENES "/bar_constant_1000.toml",
+                 {"contact.points=5", "modes.count=2", "response.optimum=preload",
+                  "response.optimum_range=[0.1, 10]", "response.frequency=[900, 1100]"});
+  std::string left;
+  const auto points = refinement(bar, {budget({{"cells", 0.05}})}, tolerance, spent, left);
+  ASSERT_TRUE(points.has_value());
+  EXPECT_GE(bar_counts(points->scene)->points, 20);
+  EXPECT_EQ(bar_counts(points->scene)->modes, 2);
+  EXPECT_TRUE(points->scene.response->optimum.has_value());
+  const auto both = refinement(points->scene, {budget({{"cells", 0.05}, {"basis", 0.05}})},
+                               tolerance, spent, left);
+  ASSERT_TRUE(both.has_value());
+  EXPECT_GT(bar_counts(both->scene)->points, bar_counts(points->scene)->points);
+  EXPECT_GT(bar_counts(both->scene)->modes, 2);
+  EXPECT_FALSE(both->only_harmonics);
 }
 
 TEST(Refinement, ObeysHarmonicsThatAreOff) {
