@@ -92,7 +92,7 @@ std::optional<RicherModel> bar_with(const char* source, const ReducedModel& mode
     const Eigen::Index more = richer.model.frequency.size();
     if (more == n && n_cells(richer.model) == n_cells(model)) return std::nullopt;
     richer.model.effects = model.effects;
-    if (more > n) richer.embedding = Eigen::MatrixXd::Identity(more, n);  // the first are the same
+    if (more != n) richer.embedding = Eigen::MatrixXd::Identity(more, n);  // the first are the same
     return richer;
   } catch (const SceneError&) {
     return std::nullopt;
@@ -101,28 +101,39 @@ std::optional<RicherModel> bar_with(const char* source, const ReducedModel& mode
   }
 }
 
-/// Four times the contact points, and three times the modes or four more.
+/// Four times the contact points, and three times the modes or four more; of many a part instead,
+/// which costs less than more of them and tells as much.
 void add_bar(const ReducedModel& model, const SceneDescription& scene,
              const std::function<bool(const char*)>& asked,
              const std::function<void(const char*, std::optional<RicherModel>)>& keep) {
   constexpr int times_points = 4;
+  constexpr int many_points = 5000;
   constexpr int times_modes = 3;
   constexpr int least_more = 4;
+  constexpr int many_modes = 60;
   const std::optional<BarCounts> own = bar_counts(scene);
   if (!own || model.patches.empty()) return;
-  const auto with_share = [](std::optional<RicherModel> richer, double left) {
-    if (richer) richer->share = 1.0 / (1.0 - left);
-    return richer;
+  BarCounts points = *own;
+  points.points =
+      own->points > many_points ? own->points / times_points : times_points * own->points;
+  BarCounts modes = *own;
+  modes.modes = own->modes > many_modes
+                    ? own->modes / times_modes
+                    : std::max(times_modes * own->modes, own->modes + least_more);
+  // Of a coarser model too: its error is 1/left times that at hand.
+  const auto with_share = [](std::optional<RicherModel> other, double left) {
+    if (other) other->share = 1.0 / (1.0 - left);
+    return other;
   };
   if (asked("cells")) {
-    const BarCounts more{times_points * own->points, own->modes};
-    keep("cells", with_share(bar_with("cells", model, scene, more),
-                             left_with_points(static_cast<double>(times_points))));
+    const double times = static_cast<double>(points.points) / own->points;
+    keep("cells", with_share(bar_with("cells", model, scene, points), left_with_points(times)));
   }
-  if (!asked("basis")) return;
-  const BarCounts more{own->points, std::max(times_modes * own->modes, own->modes + least_more)};
-  const double times = static_cast<double>(more.modes) / own->modes;
-  keep("basis", with_share(bar_with("basis", model, scene, more), left_with_modes(scene, times)));
+  if (asked("basis")) {
+    const double times = static_cast<double>(modes.modes) / own->modes;
+    keep("basis",
+         with_share(bar_with("basis", model, scene, modes), left_with_modes(scene, times)));
+  }
 }
 
 bool is_fitted(const ReducedModel& model) {
