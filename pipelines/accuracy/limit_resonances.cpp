@@ -121,7 +121,12 @@ bool resonates_only_with(const solver::Scene& own, const solver::OtherModel& wit
     if (!meets(range, free.frequency[i], place)) continue;
     const double answer = stuck_amplitude(with.scene, place);
     if (!(answer > above)) continue;
-    const double without = stuck_amplitude(own, own_frequency(here, there, i, with.embedding));
+    // Another mode may answer at the same place, with and without.
+    Eigen::Index nearest = 0;
+    (here.frequency.array() - place).abs().minCoeff(&nearest);
+    const double without =
+        std::max(stuck_amplitude(own, own_frequency(here, there, i, with.embedding)),
+                 stuck_amplitude(own, here.frequency[nearest]));
     if (hardly * answer > without) return true;
   }
   return false;
