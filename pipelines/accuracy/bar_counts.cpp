@@ -16,11 +16,13 @@ std::optional<BarCounts> bar_counts(const SceneDescription& scene) {
 }
 
 SceneDescription with_bar_counts(SceneDescription scene, const BarCounts& counts) {
-  SceneDescription other = with_value(scene, "contact.points", counts.points);
-  if (bar_counts(other)->modes != counts.modes) {
-    other = with_value(other, "modes.count", counts.modes);
+  const BarCounts own = bar_counts(scene).value();
+  if (counts.points != own.points) {
+    scene = with_formula_value(std::move(scene), "contact.points", counts.points);
   }
-  scene.model = std::move(other.model);
+  if (counts.modes != own.modes) {
+    scene = with_formula_value(std::move(scene), "modes.count", counts.modes);
+  }
   return scene;
 }
 

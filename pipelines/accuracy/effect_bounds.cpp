@@ -130,13 +130,20 @@ Told told_of(const std::vector<ErrorRow>& rows, const std::string& source, doubl
   return told;
 }
 
-bool is_one_of(std::string_view source, std::string_view effect) {
+/// The effects of a source that has several.
+std::vector<std::string_view> parts_of(std::string_view source) {
+  std::vector<std::string_view> parts;
   for (std::size_t at = 0; at <= source.size();) {
     const std::size_t end = std::min(source.find(together, at), source.size());
-    if (source.substr(at, end - at) == effect) return true;
+    parts.push_back(source.substr(at, end - at));
     at = end + together.size();
   }
-  return false;
+  return parts;
+}
+
+bool is_one_of(std::string_view source, std::string_view effect) {
+  const std::vector<std::string_view> parts = parts_of(source);
+  return std::ranges::find(parts, effect) != parts.end();
 }
 
 bool is_first_of(std::string_view source, std::string_view effect) {
@@ -227,18 +234,9 @@ double change_alone(const std::vector<ErrorRow>& rows, std::string_view source) 
 /// Of those put back together the one that changes most alone, and so is to blame.
 bool is_most_of(const std::vector<ErrorRow>& rows, std::string_view source,
                 std::string_view effect) {
-  std::string_view most;
-  double change = -1.0;
-  for (std::size_t at = 0; at <= source.size();) {
-    const std::size_t end = std::min(source.find(together, at), source.size());
-    const std::string_view one = source.substr(at, end - at);
-    if (const double alone = change_alone(rows, one); alone > change) {
-      change = alone;
-      most = one;
-    }
-    at = end + together.size();
-  }
-  return most == effect;
+  const std::vector<std::string_view> parts = parts_of(source);
+  const auto alone = [&](std::string_view part) { return change_alone(rows, part); };
+  return *std::ranges::max_element(parts, {}, alone) == effect;
 }
 
 /// In words with the first of them, objected to with the one that matters most.

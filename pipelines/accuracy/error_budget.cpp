@@ -141,16 +141,6 @@ PeakThere of_point(const solver::ResponsePoint& peak) {
   return {{peak.amplitude, peak.frequency, peak.energy.friction}};
 }
 
-/// Friction along r may drive a mode that nothing else drives.
-std::optional<PeakThere> higher_there(const solver::Scene& here, const solver::OtherModel& there,
-                                      const solver::ContinuationOptions& options,
-                                      const solver::ResponseCurve& curve, double amplitude_there,
-                                      double seconds) {
-  const double above = std::max(amplitude_there, highest_peak(curve)->amplitude);
-  const auto peak = peak_only_with(here, there, options, curve, above, seconds);
-  return peak ? std::optional(of_point(*peak)) : std::nullopt;
-}
-
 /// The highest peak of the curve in another model.
 std::optional<PeakThere> peak_there(const ReducedModel& own, const SceneDescription& scene,
                                     const RicherModel& richer, const solver::ResponseCurve& curve,
@@ -164,10 +154,11 @@ std::optional<PeakThere> peak_there(const ReducedModel& own, const SceneDescript
   const double factor = frequency_factor(own, richer.model, top.frequency, richer.embedding);
   const solver::OtherModel other{there, richer.embedding, factor, told_by_step(scene, richer)};
   if (const auto peak = solver::peak_elsewhere(here, options, curve, other)) {
-    if (richer.source == "second_direction") {
-      const double seconds = std::min(bearable, scene.response->time_budget);
-      const auto higher = higher_there(here, other, options, curve, peak->other_amplitude, seconds);
-      if (higher) return higher;
+    if (richer.source == "second_direction") {  // it may drive a mode that nothing else drives
+      const double above = std::max(peak->other_amplitude, top.amplitude);
+      const auto higher =
+          peak_only_with(here, other, options, curve, above, seconds_of_trace(scene));
+      if (higher) return of_point(*higher);
     }
     return PeakThere{{peak->other_amplitude, peak->other_frequency, peak->other_dissipated_energy},
                      peak->is_solved ? ErrorKind::solved : ErrorKind::estimated};

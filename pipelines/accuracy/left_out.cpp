@@ -72,11 +72,6 @@ std::optional<solver::PeakOfBoth> found_elsewhere(const solver::Scene& own,
   return solver::peak_elsewhere(own, options, curve, {with.scene, with.embedding, factor});
 }
 
-/// As long as a curve may take, and no longer than what is bearable [s].
-double longest(const SceneDescription& scene) {
-  return std::min(bearable, scene.response->time_budget);
-}
-
 solver::PeakOfBoth pair_of(const solver::ResponsePoint& own, const solver::ResponsePoint& there) {
   return {own.frequency, own.amplitude, there.frequency, there.amplitude};
 }
@@ -275,7 +270,7 @@ Changes changes_balanced(const SceneDescription& scene, const ReducedModel& mode
                      result.curve,
                      peak.amplitude,
                      all_peaks,
-                     longest(scene)});
+                     seconds_of_trace(scene)});
 }
 
 /// What is integrated again: all frequencies where that is bearable, else the one where the motion

@@ -1,9 +1,12 @@
 #include "pipelines/accuracy/with_effect.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "pipelines/accuracy/limit_resonances.hpp"
 #include "pipelines/response/highest_peak.hpp"
+#include "pipelines/response/peak_about.hpp"
 #include "pipelines/system/deadline.hpp"
-#include "solver/continuation.hpp"
 
 namespace microslip::pipelines {
 
@@ -18,14 +21,17 @@ std::optional<solver::PeakOfBoth> at_its_frequency(const solver::Scene& own,
   return solver::peak_elsewhere(own, options, alone, {with.scene, with.embedding, 1.0});
 }
 
+double seconds_of_trace(const SceneDescription& scene) {
+  return std::min(bearable, scene.response->time_budget);
+}
+
 std::optional<solver::ResponseCurve> traced_with(const solver::OtherModel& with,
                                                  solver::ContinuationOptions options,
                                                  const solver::ResponseCurve& own, double seconds) {
   if (own.seconds > seconds) return std::nullopt;
   const TimeLimit limit(seconds);
   options.stop = [&limit, stop = options.stop] { return limit.is_over() || stop(); };
-  const auto goes_on = [&](const auto&) { return !options.stop(); };
-  solver::ResponseCurve curve = solver::trace_response(with.scene, options, goes_on);
+  solver::ResponseCurve curve = curve_for_its_peak(with.scene, std::move(options));
   if (!curve.complete || highest_peak(curve)->mark != solver::PointMark::peak) return std::nullopt;
   return curve;
 }

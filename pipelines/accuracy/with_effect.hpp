@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "pipelines/description/scene_description.hpp"
 #include "pipelines/model/reduced_model.hpp"
 #include "solver/continuation_options.hpp"
 #include "solver/response_curve.hpp"
@@ -19,6 +20,9 @@ namespace microslip::pipelines {
 
 /// What may be solved again of an effect and a curve [s].
 inline constexpr double bearable = 60.0;
+
+/// Of a whole curve with the effect: as long as a curve may take, and no longer than is bearable [s].
+[[nodiscard]] double seconds_of_trace(const SceneDescription& scene);
 
 /// The whole curve with the effect: a peak of one that leans over, or jumps, may lie where nothing
 /// leads to from that without. @param own  the curve without. @param seconds  it may take, at most.

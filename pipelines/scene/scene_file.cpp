@@ -435,14 +435,31 @@ SceneDescription parse_scene(const std::string& text, const std::string& name,
   return scene;
 }
 
-SceneDescription with_value(const SceneDescription& scene, const std::string& key, double value) {
+namespace {
+
+/// @param left_out  keys of [response].
+SceneDescription read_again(const SceneDescription& scene, const std::string& key, double value,
+                            const std::vector<const char*>& left_out) {
   const std::string name = scene.file.string();
   toml::table given = parse_toml(scene.complete_toml, name);
   if (toml::table* response = given["response"].as_table()) {
-    for (const char* search : {"optimum", "optimum_range", "optimum_at"}) response->erase(search);
+    for (const char* search : left_out) response->erase(search);
   }
   apply_override(given, fmt::format("{}={:.17g}", key, value));
   return scene_of(std::move(given), name, std::filesystem::absolute(scene.file).parent_path());
+}
+
+}  // namespace
+
+SceneDescription with_value(const SceneDescription& scene, const std::string& key, double value) {
+  return read_again(scene, key, value, {"optimum", "optimum_range", "optimum_at"});
+}
+
+SceneDescription with_formula_value(SceneDescription scene, const std::string& key, double value) {
+  SceneDescription other = read_again(scene, key, value, {});
+  scene.model = std::move(other.model);
+  scene.complete_toml = std::move(other.complete_toml);
+  return scene;
 }
 
 SceneDescription read_scene(const std::filesystem::path& file,

@@ -28,4 +28,11 @@ namespace microslip::pipelines {
 [[nodiscard]] SceneDescription with_value(const SceneDescription& scene, const std::string& key,
                                           double value);
 
+/// The scene of a kind without mesh with one number of its formulas changed; all settings and the
+/// search stay as they are, also where a run has refined them.
+/// @param key  path as of --set.
+/// @throws SceneError, RefusedError  the value is none the key can have.
+[[nodiscard]] SceneDescription with_formula_value(SceneDescription scene, const std::string& key,
+                                                  double value);
+
 }  // namespace microslip::pipelines

@@ -199,9 +199,11 @@ void refine_to_tolerance(Solution& solution, const RunOptions& options, RunRecor
   const bool lacks_basis =
       std::ranges::find(accuracy.not_known, "basis") != accuracy.not_known.end();
   if (met && lacks_basis) {
-    record.progress().warning(reached_text(accuracy) +
-                              "; what more modes do is not known: modes.residual = \"attachment\" "
-                              "has shapes that tell it, or more modes.count shows it");
+    record.progress().warning(
+        fmt::format("{}; what more modes do is not known{}", reached_text(accuracy),
+                    solution.scene.settings.basis.residual == ResidualKind::attachment
+                        ? ""
+                        : ": modes.residual = \"attachment\" has shapes that tell it"));
   } else if (met) {
     record.progress().info(reached_text(accuracy));
   } else if (!has_budgets(solution)) {

@@ -105,32 +105,14 @@ Traced traced(const std::string& harmonics, double preload, Eigen::Index n_attac
   return result;
 }
 
-constexpr const char* bar = R"([model]
-kind = "bar"
-youngs_modulus = "200 GPa"
-area = "1e-4 m^2"
-density = 7800
-length = "1 m"
-end_stiffness = "80 kN/mm"
-[modes]
-count = 2
-damping_ratio = "0.5 %"
-[contact]
-tangential_stiffness = "1e7 N/m^2"
-friction_coefficient = 0.3
-load = "2000 N/m"
-points = 10
-[excitation]
-force = "0.2 kN"
-[response]
-frequency = [900, 1200]
-harmonics = 3
-)";
-
 // Against a bar of 24 modes and 400 points.
 TEST(ErrorBudget, OfABarHasItsModesAndItsContactPoints) {
   const auto peak_of = [](const std::vector<std::string>& overrides, CurveBudget* told) {
-    const SceneDescription scene = parse_scene(bar, "scene.toml", "/nowhere", overrides);
+    std::vector<std::string> all{"modes.count=2",        "contact.points=10",
+                                 "excitation.force=200", "response.frequency=[900, 1200]",
+                                 "response.harmonics=3", "response.maps=[]"};
+    all.insert(all.end(), overrides.begin(), overrides.end());
+    const SceneDescription scene = read_scene(MICROSLIP_SCENES "/bar_constant_1000.toml", all);
     std::vector<std::string> warnings;
     const ReducedModel model = model_of(scene, nullptr, warnings);
     const CurveResult curve =

@@ -80,6 +80,10 @@ TEST(Refinement, GivesABarMorePointsAndModes) {
   EXPECT_GT(bar_counts(both->scene)->points, bar_counts(points->scene)->points);
   EXPECT_GT(bar_counts(both->scene)->modes, 2);
   EXPECT_FALSE(both->only_harmonics);
+  // A search over another number goes on from there.
+  const auto other = bar_counts(with_value(both->scene, "contact.friction_coefficient", 0.2));
+  EXPECT_EQ(other->points, bar_counts(both->scene)->points);
+  EXPECT_EQ(other->modes, bar_counts(both->scene)->modes);
 }
 
 TEST(Refinement, ObeysHarmonicsThatAreOff) {
