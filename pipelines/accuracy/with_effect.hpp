@@ -21,7 +21,8 @@ namespace microslip::pipelines {
 /// What may be solved again of an effect and a curve [s].
 inline constexpr double bearable = 60.0;
 
-/// Of a whole curve with the effect: as long as a curve may take, and no longer than is bearable [s].
+/// Of a whole curve with the effect: as long as a curve may take, and no longer than is
+/// bearable [s].
 [[nodiscard]] double seconds_of_trace(const SceneDescription& scene);
 
 /// The whole curve with the effect: a peak of one that leans over, or jumps, may lie where nothing
