@@ -19,7 +19,7 @@ struct AvailableMemory {
 [[nodiscard]] AvailableMemory available_memory_here();
 
 /// What the machines of all ranks can still give [MB]; the same on every rank.
-/// Collective over PETSC_COMM_WORLD.
+/// Collective over MPI_COMM_WORLD.
 [[nodiscard]] double available_memory_mb();
 
 /// What the control groups of a process leave [MB], version 1 or 2: the smallest limit, less what

@@ -1,6 +1,6 @@
 /// @file
-/// Mesh and material → modes and residual flexibility. Collective over the MPI ranks of
-/// PETSC_COMM_WORLD; results are complete on every rank.
+/// Mesh and material → modes and residual flexibility. Collective over all MPI
+/// ranks; results are complete on every rank.
 #pragma once
 
 #include <cstdint>
@@ -44,6 +44,8 @@ struct ModalTimings {
   double eigensolve = 0.0;  ///< Krylov–Schur and refinement
   double inertia = 0.0;     ///< the count: ordering and factorisation of its own
 };
+
+class StructureSolver;  // fem/eigen/structure_solver.hpp
 
 /// Owns K, M and one factorisation, or the levels of multigrid;
 /// answers modes and static questions about one structure.
@@ -105,8 +107,7 @@ class Structure {
   [[nodiscard]] const ModalTimings& timings() const;
 
  private:
-  struct Implementation;
-  std::unique_ptr<Implementation> self_;
+  std::unique_ptr<StructureSolver> solver_;
 };
 
 }  // namespace microslip::fem

@@ -3,7 +3,6 @@
 /// what was asked.
 #pragma once
 
-#include <source_location>
 #include <stdexcept>
 
 namespace microslip::fem {
@@ -24,12 +23,5 @@ class MemoryError : public PetscError {
  public:
   using PetscError::PetscError;
 };
-
-/// Turns the code of a PETSc, SLEPc or MPI call into a PetscError; 0 passes.
-/// @throws PetscError  the library's own words, its function, and where it was called from.
-void check(int code, std::source_location where = std::source_location::current());
-
-/// Makes PETSc return codes silently and keep the words of the first error for check().
-void install_error_handler();
 
 }  // namespace microslip::fem

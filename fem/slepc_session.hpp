@@ -26,27 +26,6 @@ class SlepcSession {
   [[nodiscard]] static bool is_open();
 };
 
-/// From here on, where cores are shared among curves and not within a matrix: the same bits for any
-/// number of workers. Does nothing for a BLAS other than OpenBLAS.
-void use_one_blas_thread();
-
-/// While it stands OpenBLAS has one thread: where matrices are small, others only wait.
-class OneBlasThread {
- public:
-  OneBlasThread();
-  ~OneBlasThread();
-  OneBlasThread(const OneBlasThread&) = delete;
-  OneBlasThread& operator=(const OneBlasThread&) = delete;
-  OneBlasThread(OneBlasThread&&) = delete;
-  OneBlasThread& operator=(OneBlasThread&&) = delete;
-
- private:
-  int n_threads_ = 0;  ///< before; 0: another BLAS
-};
-
-/// The BLAS loaded at run time and its threads, e.g. "OpenBLAS 0.3.21, 2 threads" or
-/// "reference BLAS (slow: install libopenblas0-pthread)".
-[[nodiscard]] std::string blas_description();
 /// Name and version of PETSc, SLEPc, MUMPS and MPI; before a session as well.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> library_versions();
 

@@ -1,7 +1,7 @@
 #include "pipelines/study.hpp"
 
 #include "contact/spare_cores.hpp"
-#include "fem/slepc_session.hpp"
+#include "fem/blas_threads.hpp"
 #include "pipelines/questions/questions.hpp"
 #include "pipelines/record/failed_start.hpp"
 #include "pipelines/record/run_record.hpp"

@@ -19,7 +19,7 @@ set(uses_pipelines mesh fem contact solver)
 # for the source as well: they are the pages to read first.
 set(face_mesh blade_geometry count_text element_block element_shape element_type face_frame interpolation mesh mesh_error mesh_reader
   mesher_process outer_faces shape_functions step_geometry surface)
-set(face_fem attachment bending_error given_matrices machine_memory material memory_forecast modal_analysis modal_basis modal_mass
+set(face_fem attachment bending_error blas_threads given_matrices machine_memory material memory_forecast modal_analysis modal_basis modal_mass
   petsc_error rank_messages ranks rotation slepc_session solver_kind stress_jumps surface_load)
 set(face_contact bracketed_root contact_effects contact_force contact_map contact_state contact_states dense harmonics modal_force
   motion_coordinates patch phase point_cycle spare_cores transient_force trigonometric_basis)
@@ -34,10 +34,11 @@ set(uses_mesh_body elements checks)
 set(uses_mesh_import elements body)
 set(uses_mesh_gmsh checks import)
 
-set(drawers_fem elements petsc assembly eigen)
-set(uses_fem_petsc elements)
+set(drawers_fem elements process petsc assembly eigen module)
+set(uses_fem_petsc elements process)
 set(uses_fem_assembly elements petsc)
-set(uses_fem_eigen elements petsc assembly)
+set(uses_fem_eigen elements process petsc assembly)
+set(uses_fem_module elements process petsc eigen)
 
 set(drawers_contact numerics surface point lanes closed_form line plane patch force sampled map transient
   choice)

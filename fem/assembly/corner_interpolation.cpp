@@ -1,12 +1,12 @@
 #include "fem/assembly/corner_interpolation.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
 
+#include "fem/assembly/edge_nodes.hpp"
 #include "fem/assembly/own_elements.hpp"
-#include "fem/petsc_error.hpp"
+#include "fem/petsc/petsc_check.hpp"
 #include "mesh/shape_functions.hpp"
 
 namespace microslip::fem {
@@ -77,12 +77,6 @@ MatHandle make_matrix(const DofMap& dofs, const Corners& corners) {
 }
 
 }  // namespace
-
-bool has_edge_nodes(const mesh::Mesh& mesh) {
-  return std::ranges::any_of(mesh.elements(), [](const mesh::ElementBlock& block) {
-    return mesh::is_quadratic(block.type) && block.connectivity.rows() > 0;
-  });
-}
 
 MatHandle corner_interpolation(const mesh::Mesh& mesh, const DofMap& dofs) {
   if (!has_edge_nodes(mesh)) return {};

@@ -15,9 +15,6 @@
 
 namespace microslip::fem {
 
-/// Whether any element has nodes beside its corners.
-[[nodiscard]] bool has_edge_nodes(const mesh::Mesh& mesh);
-
 /// @return  3 n_free_nodes × 3 n_free_corners, rows and columns of a rank as it owns the nodes;
 ///          corners in solver order. Empty: there are corners only, or none is free.
 [[nodiscard]] MatHandle corner_interpolation(const mesh::Mesh& mesh, const DofMap& dofs);

@@ -8,7 +8,7 @@
 
 #include <petscsys.h>
 
-#include "fem/petsc_error.hpp"
+#include "fem/petsc/petsc_check.hpp"
 
 namespace microslip::fem {
 namespace {

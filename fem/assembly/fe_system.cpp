@@ -1,7 +1,7 @@
 #include "fem/assembly/fe_system.hpp"
 
 #include "fem/assembly/own_elements.hpp"
-#include "fem/petsc_error.hpp"
+#include "fem/petsc/petsc_check.hpp"
 
 namespace microslip::fem {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "fem/petsc_error.hpp"
+#include "fem/petsc/petsc_check.hpp"
 
 namespace microslip::fem {
 namespace {

@@ -11,7 +11,7 @@
 
 #include <Eigen/Core>
 
-#include "fem/assembly/corner_interpolation.hpp"
+#include "fem/assembly/edge_nodes.hpp"
 
 namespace microslip::fem {
 namespace {

@@ -9,6 +9,7 @@
 #include "fem/elements/number_text.hpp"
 #include "fem/petsc/columns.hpp"
 #include "fem/petsc/factorisation.hpp"
+#include "fem/petsc/petsc_check.hpp"
 #include "fem/petsc_error.hpp"
 
 namespace microslip::fem {

@@ -8,6 +8,7 @@
 #include "fem/elements/symmetric_pairs.hpp"
 #include "fem/petsc/columns.hpp"
 #include "fem/petsc/guarded_solver.hpp"
+#include "fem/petsc/petsc_check.hpp"
 #include "fem/petsc_error.hpp"
 
 namespace microslip::fem {

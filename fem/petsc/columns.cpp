@@ -2,7 +2,7 @@
 
 #include <Eigen/Cholesky>
 
-#include "fem/petsc_error.hpp"
+#include "fem/petsc/petsc_check.hpp"
 
 namespace microslip::fem {
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "fem/elements/number_text.hpp"
+#include "fem/petsc/petsc_check.hpp"
 #include "fem/petsc_error.hpp"
 
 namespace microslip::fem {

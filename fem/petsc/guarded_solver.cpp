@@ -1,6 +1,6 @@
 #include "fem/petsc/guarded_solver.hpp"
 
-#include "fem/petsc_error.hpp"
+#include "fem/petsc/petsc_check.hpp"
 
 namespace microslip::fem {
 namespace {

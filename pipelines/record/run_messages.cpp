@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "contact/contact_force.hpp"
-#include "fem/slepc_session.hpp"
+#include "fem/blas_threads.hpp"
 #include "pipelines/accuracy/optimum_budget.hpp"
 #include "pipelines/response/highest_peak.hpp"
 #include "pipelines/text/effect_table.hpp"

@@ -11,9 +11,9 @@
 #include <string>
 #include <utility>
 
+#include "fem/blas_threads.hpp"
 #include "fem/rank_messages.hpp"
 #include "fem/ranks.hpp"
-#include "fem/slepc_session.hpp"
 #include "pipelines/files/model_members.hpp"
 #include "pipelines/files/result_members.hpp"
 #include "pipelines/response/response_stage.hpp"

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "contact/spare_cores.hpp"
+#include "fem/blas_threads.hpp"
 #include "fem/ranks.hpp"
-#include "fem/slepc_session.hpp"
 #include "mesh/mesh_error.hpp"
 #include "pipelines/structure/extrapolated_modes.hpp"
 #include "pipelines/structure/solver_memory.hpp"

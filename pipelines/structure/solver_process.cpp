@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "fem/blas_threads.hpp"
 #include "fem/slepc_session.hpp"
 #include "mesh/mesher_process.hpp"
 #include "pipelines/structure/solver_memory.hpp"

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "fem/slepc_session.hpp"
+#include "fem/blas_threads.hpp"
 #include "pipelines/accuracy/convergence.hpp"
 #include "pipelines/files/plot_script.hpp"
 #include "pipelines/files/write_ladder.hpp"

@@ -11,6 +11,7 @@
 #include <benchmark/benchmark.h>
 
 #include "fem/assembly/fe_system.hpp"
+#include "fem/blas_threads.hpp"
 #include "fem/elements/element_matrices.hpp"
 #include "fem/modal_analysis.hpp"
 #include "fem/slepc_session.hpp"

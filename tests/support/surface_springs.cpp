@@ -2,7 +2,7 @@
 
 #include "fem/eigen/mode_search.hpp"
 #include "fem/petsc/factorisation.hpp"
-#include "fem/petsc_error.hpp"
+#include "fem/petsc/petsc_check.hpp"
 
 namespace microslip::test {
 namespace {

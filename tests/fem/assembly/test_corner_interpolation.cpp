@@ -4,8 +4,9 @@
 #include <gtest/gtest.h>
 #include <slepceps.h>
 
+#include "fem/assembly/edge_nodes.hpp"
 #include "fem/petsc/columns.hpp"
-#include "fem/petsc_error.hpp"
+#include "fem/petsc/petsc_check.hpp"
 #include "tests/support/box_mesh.hpp"
 
 namespace microslip::fem::test_corner_interpolation {

@@ -7,7 +7,7 @@
 #include <slepceps.h>
 
 #include "fem/assembly/fe_system.hpp"
-#include "fem/petsc_error.hpp"
+#include "fem/petsc/petsc_check.hpp"
 #include "tests/support/box_mesh.hpp"
 
 namespace microslip::fem::test_memory_forecast {

@@ -7,6 +7,7 @@
 
 #include "fem/assembly/fe_system.hpp"
 #include "fem/eigen/mode_search.hpp"
+#include "fem/petsc/petsc_check.hpp"
 #include "fem/petsc_error.hpp"
 #include "fem/ranks.hpp"
 #include "tests/support/address_space.hpp"

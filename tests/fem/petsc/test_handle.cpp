@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "fem/petsc_error.hpp"
+#include "fem/petsc/petsc_check.hpp"
 
 namespace microslip::fem::test_handle {
 namespace {

@@ -1,3 +1,4 @@
+#include "fem/petsc/petsc_check.hpp"
 #include "fem/petsc_error.hpp"
 
 #include <cstddef>
@@ -5,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "fem/blas_threads.hpp"
 #include "fem/petsc/handle.hpp"
 #include "fem/slepc_session.hpp"
 

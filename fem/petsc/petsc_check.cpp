@@ -1,4 +1,4 @@
-#include "fem/petsc_error.hpp"
+#include "fem/petsc/petsc_check.hpp"
 
 #include <filesystem>
 #include <string>
@@ -6,6 +6,8 @@
 #include <utility>
 
 #include <petscsys.h>
+
+#include "fem/petsc_error.hpp"
 
 namespace microslip::fem {
 namespace {

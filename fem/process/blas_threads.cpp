@@ -1,4 +1,4 @@
-#include "fem/petsc/blas_library.hpp"
+#include "fem/blas_threads.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -7,12 +7,12 @@
 #include <string>
 
 #include <dlfcn.h>
-#include <petscsys.h>
-
-#include <petscblaslapack.h>  // uses what petscsys.h declares, and does not include it
 
 #include "fem/ranks.hpp"
-#include "fem/slepc_session.hpp"
+
+extern "C" void dtrsm_(const char* side, const char* triangle, const char* transposed,
+                       const char* diagonal, const int* m, const int* n, const double* factor,
+                       const double* a, const int* lda, double* b, const int* ldb);
 
 namespace microslip::fem {
 namespace {
@@ -57,12 +57,11 @@ void set_blas_threads(int n_ranks_here) {
 }
 
 void reserve_blas_memory() {
-  const PetscBLASInt one = 1;
-  const PetscScalar unit = 1.0;
-  PetscScalar triangle = 1.0;
-  PetscScalar solution = 1.0;
+  const int one = 1;
+  const double unit = 1.0;
+  double solution = 1.0;
   // A product of small matrices may do without.
-  BLAStrsm_("L", "L", "N", "N", &one, &one, &unit, &triangle, &one, &solution, &one);
+  dtrsm_("L", "L", "N", "N", &one, &one, &unit, &unit, &one, &solution, &one);
 }
 
 void use_one_blas_thread() {

@@ -4,48 +4,27 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
-#include <optional>
 #include <stdexcept>
-#include <type_traits>
 
+#include <mpi.h>
 #include <petscpkg_version.h>
-#include <slepcsys.h>
+#include <petscversion.h>
+#include <slepcversion.h>
 
-#include "fem/petsc/blas_library.hpp"
+#include "fem/blas_threads.hpp"
+#include "fem/module/solver_module.hpp"
 #include "fem/petsc_error.hpp"
+#include "fem/process/mpi_error.hpp"
 #include "fem/ranks.hpp"
 
 namespace microslip::fem {
 
-static_assert(std::is_same_v<PetscScalar, double>, "PETSc must be built with real double scalars");
-
 namespace {
 
-// PETSc reads PETSC_OPTIONS and ~/.petscrc while it starts; a stray option there must not change
-// results, so both are kept from it.
-class QuietOptions {
- public:
-  QuietOptions() {
-    if (const char* value = std::getenv(name)) before_ = value;
-    setenv(name, "-skip_petscrc -no_signal_handler", 1);
-  }
-  ~QuietOptions() {
-    if (before_) {
-      setenv(name, before_->c_str(), 1);
-    } else {
-      unsetenv(name);
-    }
-  }
-  QuietOptions(const QuietOptions&) = delete;
-  QuietOptions& operator=(const QuietOptions&) = delete;
-  QuietOptions(QuietOptions&&) = delete;
-  QuietOptions& operator=(QuietOptions&&) = delete;
-
- private:
-  static constexpr const char* name = "PETSC_OPTIONS";
-  std::optional<std::string> before_;
-};
+enum class Phase : std::uint8_t { before, open, over };
+Phase phase = Phase::before;
 
 /// MPI ends the process, and OpenBLAS never returns, where the address space is limited to less
 /// than they take (`ulimit -v`).
@@ -75,9 +54,7 @@ void stay_alone() {
 }  // namespace
 
 SlepcSession::SlepcSession() {
-  int over = 0;
-  check(MPI_Finalized(&over));
-  if (over != 0 || is_open()) {
+  if (phase != Phase::before) {
     throw std::logic_error("SlepcSession: one per process, and there was one already");
   }
   require_address_space();
@@ -85,45 +62,29 @@ SlepcSession::SlepcSession() {
   // as well.
   setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
   if (!started_in_parallel()) stay_alone();
-  PETSC_MPI_THREAD_REQUIRED = MPI_THREAD_SERIALIZED;  // for rank_messages.hpp
-  {
-    const QuietOptions quiet;
-    check(SlepcInitialize(nullptr, nullptr, nullptr, nullptr));
-  }
-  install_error_handler();
-  meet_ranks();
+  know_ranks_here(solver_module().open());
   set_blas_threads(n_ranks_here());
   reserve_blas_memory();
+  phase = Phase::open;
 }
 
 SlepcSession::~SlepcSession() {
-  PetscPopErrorHandler();
-  SlepcFinalize();
+  solver_module().close();
+  phase = Phase::over;
 }
 
-bool SlepcSession::is_open() {
-  PetscBool open = PETSC_FALSE;
-  check(SlepcInitialized(&open));
-  return open == PETSC_TRUE;
-}
+bool SlepcSession::is_open() { return phase == Phase::open; }
 
 std::vector<std::pair<std::string, std::string>> library_versions() {
   const auto dotted = [](int a, int b, int c) {
     return std::to_string(a) + '.' + std::to_string(b) + '.' + std::to_string(c);
   };
-  const auto of = [&](PetscErrorCode (*get)(PetscInt*, PetscInt*, PetscInt*, PetscInt*)) {
-    PetscInt major = 0;
-    PetscInt minor = 0;
-    PetscInt patch = 0;
-    check(get(&major, &minor, &patch, nullptr));
-    return dotted(major, minor, patch);
-  };
   std::array<char, MPI_MAX_LIBRARY_VERSION_STRING> mpi{};
   int length = 0;
-  check(MPI_Get_library_version(mpi.data(), &length));
+  check_mpi(MPI_Get_library_version(mpi.data(), &length));
   const std::string name(mpi.data(), static_cast<std::size_t>(length));
-  return {{"PETSc", of(&PetscGetVersionNumber)},
-          {"SLEPc", of(&SlepcGetVersionNumber)},
+  return {{"PETSc", dotted(PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR, PETSC_VERSION_SUBMINOR)},
+          {"SLEPc", dotted(SLEPC_VERSION_MAJOR, SLEPC_VERSION_MINOR, SLEPC_VERSION_SUBMINOR)},
           {"MUMPS", dotted(PETSC_PKG_MUMPS_VERSION_MAJOR, PETSC_PKG_MUMPS_VERSION_MINOR,
                            PETSC_PKG_MUMPS_VERSION_SUBMINOR)},
           {"MPI", name.substr(0, name.find(','))}};

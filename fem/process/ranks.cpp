@@ -13,7 +13,7 @@
 #include <mpi.h>
 #include <sched.h>
 
-#include "fem/petsc_error.hpp"
+#include "fem/process/mpi_error.hpp"
 
 namespace microslip::fem {
 namespace {
@@ -32,8 +32,8 @@ constexpr auto patience = 15s;
 bool is_open() {
   int begun = 0;
   int ended = 0;
-  check(MPI_Initialized(&begun));
-  check(MPI_Finalized(&ended));
+  check_mpi(MPI_Initialized(&begun));
+  check_mpi(MPI_Finalized(&ended));
   return begun != 0 && ended == 0;
 }
 
@@ -42,11 +42,11 @@ bool is_open() {
 bool wait_asleep(MPI_Request& request, Clock::duration limit = Clock::duration::max()) {
   const auto begin = Clock::now();
   int done = 0;
-  check(MPI_Test(&request, &done, MPI_STATUS_IGNORE));
+  check_mpi(MPI_Test(&request, &done, MPI_STATUS_IGNORE));
   while (done == 0) {
     if (Clock::now() - begin > limit) return false;
     std::this_thread::sleep_for(2ms);
-    check(MPI_Test(&request, &done, MPI_STATUS_IGNORE));
+    check_mpi(MPI_Test(&request, &done, MPI_STATUS_IGNORE));
   }
   return true;
 }
@@ -55,7 +55,7 @@ void broadcast(std::string& bytes, int from) {
   constexpr std::size_t most = std::size_t{1} << 30U;  // MPI counts in int
   for (std::size_t at = 0; at < bytes.size(); at += most) {
     const auto n = static_cast<int>(std::min(most, bytes.size() - at));
-    check(MPI_Bcast(bytes.data() + at, n, MPI_BYTE, from, MPI_COMM_WORLD));
+    check_mpi(MPI_Bcast(bytes.data() + at, n, MPI_BYTE, from, MPI_COMM_WORLD));
   }
 }
 
@@ -64,7 +64,7 @@ using Head = std::array<std::int64_t, 2>;
 
 void announce(Head head) {
   MPI_Request request = MPI_REQUEST_NULL;
-  check(MPI_Ibcast(head.data(), 2, MPI_INT64_T, 0, MPI_COMM_WORLD, &request));
+  check_mpi(MPI_Ibcast(head.data(), 2, MPI_INT64_T, 0, MPI_COMM_WORLD, &request));
   wait_asleep(request);
 }
 
@@ -84,17 +84,18 @@ bool started_as_rank() {
 
 int rank() {
   int value = 0;
-  if (is_open()) check(MPI_Comm_rank(MPI_COMM_WORLD, &value));
+  if (is_open()) check_mpi(MPI_Comm_rank(MPI_COMM_WORLD, &value));
   return value;
 }
 
 int n_ranks() {
   int value = 1;
-  if (is_open()) check(MPI_Comm_size(MPI_COMM_WORLD, &value));
+  if (is_open()) check_mpi(MPI_Comm_size(MPI_COMM_WORLD, &value));
   return value;
 }
 
 int n_ranks_here() { return ranks_here; }
+void know_ranks_here(int n) { ranks_here = n; }
 
 int n_cores() { return static_cast<int>(std::max(1U, std::thread::hardware_concurrency())); }
 
@@ -107,15 +108,15 @@ int usable_cores() {
 void meet_ranks() {
   if (n_ranks() == 1) return;
   MPI_Comm here = MPI_COMM_NULL;
-  check(MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &here));
-  check(MPI_Comm_size(here, &ranks_here));
+  check_mpi(MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &here));
+  check_mpi(MPI_Comm_size(here, &ranks_here));
   cpu_set_t own;
   cpu_set_t all;
   CPU_ZERO(&own);
   CPU_ZERO(&all);
   sched_getaffinity(0, sizeof own, &own);
-  check(MPI_Reduce(&own, &all, sizeof own, MPI_BYTE, MPI_BOR, 0, here));
-  check(MPI_Comm_free(&here));
+  check_mpi(MPI_Reduce(&own, &all, sizeof own, MPI_BYTE, MPI_BOR, 0, here));
+  check_mpi(MPI_Comm_free(&here));
   if (rank() == 0) sched_setaffinity(0, sizeof all, &all);
 }
 
@@ -131,7 +132,7 @@ void dismiss(int code) {
 Order await_order() {
   Head head{};
   MPI_Request request = MPI_REQUEST_NULL;
-  check(MPI_Ibcast(head.data(), 2, MPI_INT64_T, 0, MPI_COMM_WORLD, &request));
+  check_mpi(MPI_Ibcast(head.data(), 2, MPI_INT64_T, 0, MPI_COMM_WORLD, &request));
   wait_asleep(request);
   if (head[0] == dismissed) return {std::nullopt, static_cast<int>(head[1])};
   std::string bytes(static_cast<std::size_t>(head[0]), '\0');
@@ -152,7 +153,7 @@ std::optional<Failure> agree(const std::optional<Failure>& own) {
   MPI_Request request = MPI_REQUEST_NULL;
   const auto tell = [&](int code) {
     if (own && code != MPI_SUCCESS) end_all(*own);  // without memory, MPI has none either
-    check(code);
+    check_mpi(code);
   };
   tell(MPI_Iallreduce(&mine, &first, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD, &request));
   if (!wait_asleep(request, own ? Clock::duration(patience) : Clock::duration::max())) {
@@ -171,7 +172,7 @@ std::optional<Failure> agree(const std::optional<Failure>& own) {
 bool anywhere(bool here) {
   int value = here ? 1 : 0;
   if (n_ranks() > 1) {
-    check(MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD));
+    check_mpi(MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD));
   }
   return value != 0;
 }

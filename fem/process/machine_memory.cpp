@@ -1,6 +1,6 @@
 #include "fem/machine_memory.hpp"
 
-#include <petscsys.h>
+#include <mpi.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "fem/petsc_error.hpp"
+#include "fem/process/mpi_error.hpp"
 #include "fem/ranks.hpp"
 
 namespace microslip::fem {
@@ -113,7 +113,7 @@ AvailableMemory available_memory_here() {
 double available_memory_mb() {
   const double share = available_memory_here().megabytes / n_ranks_here();
   double total = 0.0;
-  check(MPI_Allreduce(&share, &total, 1, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD));
+  check_mpi(MPI_Allreduce(&share, &total, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD));
   return total;
 }
 

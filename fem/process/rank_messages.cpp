@@ -10,7 +10,7 @@
 
 #include <mpi.h>
 
-#include "fem/petsc_error.hpp"
+#include "fem/process/mpi_error.hpp"
 
 namespace microslip::fem {
 namespace {
@@ -37,7 +37,7 @@ std::list<Parcel>& under_way() {
 void forget_taken() {
   std::erase_if(under_way(), [](Parcel& parcel) {
     int done = 0;
-    check(MPI_Test(&parcel.request, &done, MPI_STATUS_IGNORE));
+    check_mpi(MPI_Test(&parcel.request, &done, MPI_STATUS_IGNORE));
     return done != 0;
   });
 }
@@ -52,8 +52,8 @@ void send_message(int to, std::string bytes) {
   forget_taken();
   Parcel& parcel = under_way().emplace_back();
   parcel.bytes = std::move(bytes);
-  check(MPI_Isend(parcel.bytes.data(), static_cast<int>(parcel.bytes.size()), MPI_BYTE, to, tag,
-                  MPI_COMM_WORLD, &parcel.request));
+  check_mpi(MPI_Isend(parcel.bytes.data(), static_cast<int>(parcel.bytes.size()), MPI_BYTE, to, tag,
+                      MPI_COMM_WORLD, &parcel.request));
 }
 
 std::optional<std::string> take_message(int from) {
@@ -61,12 +61,12 @@ std::optional<std::string> take_message(int from) {
   forget_taken();
   int there = 0;
   MPI_Status status;
-  check(MPI_Iprobe(from, tag, MPI_COMM_WORLD, &there, &status));
+  check_mpi(MPI_Iprobe(from, tag, MPI_COMM_WORLD, &there, &status));
   if (there == 0) return std::nullopt;
   int n = 0;
-  check(MPI_Get_count(&status, MPI_BYTE, &n));
+  check_mpi(MPI_Get_count(&status, MPI_BYTE, &n));
   std::string bytes(static_cast<std::size_t>(n), '\0');
-  check(MPI_Recv(bytes.data(), n, MPI_BYTE, from, tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE));
+  check_mpi(MPI_Recv(bytes.data(), n, MPI_BYTE, from, tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE));
   return bytes;
 }
 

@@ -1,0 +1,48 @@
+#include <dlfcn.h>
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "fem/module/solver_module.hpp"
+#include "fem/petsc_error.hpp"
+
+namespace microslip::fem {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* file_name = "microslip-solver.so";
+
+[[noreturn]] void refuse(const std::string& words) {
+  // glibc has no other way to tell.
+  if (words.find("annot allocate memory") != std::string::npos ||
+      words.find("failed to map segment") != std::string::npos) {
+    throw MemoryError("out of memory while PETSc and SLEPc are loaded: " + words);
+  }
+  throw std::runtime_error("finite elements cannot be solved: " + words);
+}
+
+/// It stays open to the end, and its libraries with it.
+const SolverModule& opened() {
+  const fs::path file = fs::read_symlink("/proc/self/exe").parent_path() / file_name;
+  if (!fs::exists(file)) {
+    throw std::runtime_error(std::string(file_name) +
+                             " is not beside microslip; build all targets");
+  }
+  void* library = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL);
+  if (library == nullptr) refuse(dlerror());
+  void* shown = dlsym(library, solver_module_symbol);
+  if (shown == nullptr) refuse(dlerror());
+  return *reinterpret_cast<const SolverModule* (*)()>(shown)();
+}
+
+}  // namespace
+
+const SolverModule& solver_module() {
+  static const SolverModule& module = opened();
+  return module;
+}
+
+}  // namespace microslip::fem
