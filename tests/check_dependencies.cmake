@@ -36,7 +36,7 @@ set(uses_mesh_gmsh checks import)
 
 set(drawers_fem elements process petsc assembly eigen module)
 set(uses_fem_petsc elements process)
-set(uses_fem_assembly elements petsc)
+set(uses_fem_assembly elements process petsc)
 set(uses_fem_eigen elements process petsc assembly)
 set(uses_fem_module elements process petsc eigen)
 

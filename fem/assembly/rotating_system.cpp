@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "fem/assembly/own_elements.hpp"
 #include "fem/elements/deformed_element.hpp"
@@ -11,6 +12,7 @@
 #include "fem/petsc/factorisation.hpp"
 #include "fem/petsc/petsc_check.hpp"
 #include "fem/petsc_error.hpp"
+#include "fem/ranks.hpp"
 
 namespace microslip::fem {
 namespace {
@@ -30,9 +32,10 @@ class RotatingAssembly {
         material_(material),
         rule_(rule),
         rotation_(rotation),
-        square_(rotation.speed * rotation.speed),
         radial_(Eigen::Matrix3d::Identity() - rotation.direction * rotation.direction.transpose()) {
   }
+
+  void turn_at(double square_of_speed) { square_ = square_of_speed; }
 
   /// Both sides of (1) at a displacement; (2) becomes the stiffness of the system.
   Balance assemble(const Eigen::MatrixX3d& displacement) {
@@ -41,6 +44,7 @@ class RotatingAssembly {
     Balance balance{Eigen::VectorXd::Zero(dofs.n_local_dofs()),
                     Eigen::VectorXd::Zero(dofs.n_local_dofs())};
     check(MatZeroEntries(K));
+    beyond_ = false;
     for_own_elements(
         mesh_, dofs, [&](const mesh::ElementBlock& block, Eigen::Index e, const ElementDofs& own) {
           evaluate(block, e, displacement);
@@ -53,6 +57,10 @@ class RotatingAssembly {
     return balance;
   }
 
+  /// Whether the last assembly had strains that no law of small ones describes, or elements turned
+  /// inside out.
+  [[nodiscard]] bool is_beyond_its_law() const { return anywhere(beyond_); }
+
  private:
   void evaluate(const mesh::ElementBlock& block, Eigen::Index e,
                 const Eigen::MatrixX3d& displacement) {
@@ -60,6 +68,8 @@ class RotatingAssembly {
     const Eigen::MatrixX3d x = mesh_.nodes()(nodes, Eigen::all);
     const Eigen::MatrixX3d u = displacement(nodes, Eigen::all);
     deform_element(block.type, x, u, material_, rule_, element_);
+    constexpr double largest = 0.2;
+    beyond_ = beyond_ || element_.inside_out || !(element_.strain <= largest);
     element_matrices(block.type, x, material_, rule_, matrices_);
     load_ = square_ * radial_ * ((x + u).rowwise() - rotation_.origin.transpose()).transpose() *
             matrices_.mass;
@@ -85,16 +95,18 @@ class RotatingAssembly {
   const Material& material_;
   Tet10Rule rule_;
   Rotation rotation_;
-  double square_;           // Ω²
+  double square_ = 0.0;  // Ω²
+  bool beyond_ = false;
   Eigen::Matrix3d radial_;  // P
   DeformedElement element_;
   ElementMatrices matrices_;
   Eigen::Matrix3Xd load_;
 };
 
+std::string rpm(double speed) { return number_text(30.0 * speed / std::numbers::pi) + " rpm"; }
+
 std::string at_speed(const Rotation& rotation) {
-  return " at a speed of " + number_text(rotation.speed) + " rad/s (" +
-         number_text(30.0 * rotation.speed / std::numbers::pi) + " rpm)";
+  return " at a speed of " + number_text(rotation.speed) + " rad/s (" + rpm(rotation.speed) + ")";
 }
 
 void require_stable(const FeSystem& system, const Rotation& rotation) {
@@ -109,15 +121,23 @@ void require_stable(const FeSystem& system, const Rotation& rotation) {
 
 double norm(const Eigen::VectorXd& local) { return column_norms(local)[0]; }
 
-}  // namespace
+struct Attempt {
+  bool found = false;  ///< else Newton's method does not end, or where a linear law says nothing
+  Eigen::VectorXd u;
+  double reach = 0.0;  ///< of the largest step, over the length of the body
+};
 
-Eigen::VectorXd rotate_system(FeSystem& system, const mesh::Mesh& mesh, const Material& material,
-                              Tet10Rule rule, const Rotation& rotation,
-                              const Eigen::VectorXd& start) {
-  constexpr int max_steps = 30;
+constexpr double farthest = 100.0;  // reach that may come back
+
+/// Newton's method at one speed.
+Attempt balanced(RotatingAssembly& assembly, const FeSystem& system, const mesh::Mesh& mesh,
+                 const Eigen::VectorXd& start) {
+  constexpr int max_steps = 15;
   constexpr double tolerance = 1e-9;
-  RotatingAssembly assembly(system, mesh, material, rule, rotation);
-  Eigen::VectorXd u = start;
+  Attempt attempt{false, start};
+  Eigen::VectorXd& u = attempt.u;
+  const double length =
+      (mesh.nodes().colwise().maxCoeff() - mesh.nodes().colwise().minCoeff()).norm();
   double first = 0.0;  // out of balance: what a body at rest again is measured by
   for (int step = 0; step < max_steps; ++step) {
     const Balance balance = assembly.assemble(u.reshaped<Eigen::RowMajor>(mesh.n_nodes(), 3));
@@ -125,22 +145,61 @@ Eigen::VectorXd rotate_system(FeSystem& system, const mesh::Mesh& mesh, const Ma
     const double size = norm(rest);
     if (!std::isfinite(size)) break;
     if (step == 0) first = size;
-    const bool balanced = size <= tolerance * std::max(norm(balance.load), step == 0 ? 0.0 : first);
+    const bool is_balanced =
+        size <= tolerance * std::max(norm(balance.load), step == 0 ? 0.0 : first);
     Eigen::VectorXd correction = Eigen::VectorXd::Zero(u.size());
-    if (!balanced) {
+    if (!is_balanced) {
       const Factorisation tangent(system.stiffness.get(), FactorKind::indefinite);
       correction = system.dofs.to_mesh(tangent.solve(rest));
     }
     // In thin bodies rounding leaves more out of balance than the load, which no displacement
     // feels.
-    if (balanced || correction.norm() <= tolerance * u.norm()) {
-      require_stable(system, rotation);
-      return u;
+    if (is_balanced || correction.norm() <= tolerance * u.norm()) {
+      attempt.found = !assembly.is_beyond_its_law();
+      break;
     }
+    attempt.reach = std::max(attempt.reach, correction.cwiseAbs().maxCoeff() / length);
+    if (!(attempt.reach <= farthest)) break;
     u += correction;
   }
+  return attempt;
+}
+
+/// @param found  the highest speed with an equilibrium on the way [rad/s]; 0: none.
+[[noreturn]] void refuse(const Rotation& rotation, double found) {
   throw EigenError("rotation: no static equilibrium is found" + at_speed(rotation) +
+                   ", or none with strains below 0.2" +
+                   (found > 0.0 ? "; one is up to " + rpm(found) : "") +
                    "; lower the speed, or look whether axis, units and supports are right");
+}
+
+}  // namespace
+
+Eigen::VectorXd rotate_system(FeSystem& system, const mesh::Mesh& mesh, const Material& material,
+                              Tet10Rule rule, const Rotation& rotation, const Equilibrium& start) {
+  constexpr double shortest = 1.0 / 1024.0;
+  constexpr double shortest_of_reached = 1.0 / 64.0;  // where it buckles it stops soon
+  RotatingAssembly assembly(system, mesh, material, rule, rotation);
+  const double before = start.speed * start.speed;
+  const double after = rotation.speed * rotation.speed;
+  Eigen::VectorXd u = start.displacement;
+  double reached = 0.0;  // of the way from one square to the other
+  for (double step = 1.0; reached < 1.0;) {
+    const double next = std::min(1.0, reached + step);
+    assembly.turn_at(before + next * (after - before));
+    Attempt attempt = balanced(assembly, system, mesh, u);
+    if (attempt.found) {
+      u = std::move(attempt.u);
+      reached = next;
+      step *= 2.0;
+      continue;
+    }
+    step *= std::min(0.5, attempt.reach > farthest ? farthest / attempt.reach : 1.0);
+    if (step < std::max(shortest, shortest_of_reached * reached))
+      refuse(rotation, std::sqrt(before + reached * (after - before)));
+  }
+  require_stable(system, rotation);
+  return u;
 }
 
 }  // namespace microslip::fem

@@ -19,14 +19,21 @@
 
 namespace microslip::fem {
 
-/// Finds the equilibrium (1) and leaves (2) as the stiffness of the system.
+struct Equilibrium {
+  Eigen::VectorXd displacement;  ///< 3 n_nodes [m], 0 where held
+  double speed = 0.0;            ///< [rad/s], about the same axis
+};
+
+/// Finds the equilibrium (1) and leaves (2) as the stiffness of the system: at once, or where that
+/// does not end in steps of the square of the speed.
 /// @param system  of this mesh, material and rule.
-/// @param start   displacement to begin with, 3 n_nodes [m], 0 where held.
+/// @param start   to begin with.
 /// @return u, complete on every rank, 3 n_nodes [m]; out-of-balance force 1e-9 of the load, or a
 ///         last correction 1e-9 of u.
-/// @throws EigenError  "rotation: …": no equilibrium is found, or K has negative eigenvalues there.
+/// @throws EigenError  "rotation: …": no equilibrium is found, none with strains
+///         below 0.2, or K has negative eigenvalues there.
 [[nodiscard]] Eigen::VectorXd rotate_system(FeSystem& system, const mesh::Mesh& mesh,
                                             const Material& material, Tet10Rule rule,
-                                            const Rotation& rotation, const Eigen::VectorXd& start);
+                                            const Rotation& rotation, const Equilibrium& start);
 
 }  // namespace microslip::fem

@@ -133,9 +133,9 @@ class AssembledStructure : public StructureSolver {
   ModalTimings spent_;
   Tet10Rule rule_;
   SolverKind kind_;
-  Eigen::VectorXd displacement_{};  // of the body as it rotates, 3 n_nodes [m]; empty: it does not
-  CountedPairs uncounted_{};        // of the last search, without its pairs
-  MatHandle from_corners_{};        // of quadratic elements, for the iterative way
+  Equilibrium rotating_{};                       // without displacement: it does not
+  CountedPairs uncounted_{};                     // of the last search, without its pairs
+  MatHandle from_corners_{};                     // of quadratic elements, for the iterative way
   std::unique_ptr<OneBlasThread> one_thread_{};  // of that way
 };
 
@@ -321,15 +321,15 @@ Eigen::VectorXd AssembledStructure::rotate(const mesh::Mesh& mesh, const Materia
                                            const Rotation& rotation) {
   if (rigid_.cols() > 0) {
     throw EigenError("rotation: " + std::to_string(rigid_.cols()) +
-                     " rigid_-body modes are free, nothing holds the body against its centrifugal "
+                     " rigid-body modes are free, nothing holds the body against its centrifugal "
                      "load: clamp what turns with it");
   }
-  if (displacement_.size() == 0) {
-    displacement_ = Eigen::VectorXd::Zero(3 * mesh.n_nodes());
+  if (rotating_.displacement.size() == 0) {
+    rotating_.displacement = Eigen::VectorXd::Zero(3 * mesh.n_nodes());
   }
   inverse_.reset();
-  displacement_ = rotate_system(system_, mesh, material, rule_, rotation, displacement_);
-  return displacement_;
+  rotating_ = {rotate_system(system_, mesh, material, rule_, rotation, rotating_), rotation.speed};
+  return rotating_.displacement;
 }
 
 ModalBasis AssembledStructure::solve_modes(const ModalOptions& options) {
@@ -373,7 +373,7 @@ Eigen::MatrixXd AssembledStructure::solve_static(const Eigen::MatrixXd& forces) 
   if (rigid_.cols() > 0) {
     throw EigenError(
         "rigid-body: " + std::to_string(rigid_.cols()) +
-        " rigid_-body modes are free, the stiffness matrix is singular: no static solution");
+        " rigid-body modes are free, the stiffness matrix is singular: no static solution");
   }
   prepare();
   return system_.dofs.to_mesh(inverse_->solve(system_.dofs.to_local(forces)));

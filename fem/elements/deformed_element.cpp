@@ -1,5 +1,7 @@
 #include "fem/elements/deformed_element.hpp"
 
+#include <algorithm>
+
 #include <Eigen/LU>
 
 #include "mesh/shape_functions.hpp"
@@ -15,6 +17,8 @@ struct PointTerms {
   Eigen::Matrix3d left_cauchy_green;  // F Fᵀ
   Eigen::MatrixXd gradients;          // g_i·g_j
   Eigen::MatrixXd stresses;           // g_i·S g_j
+  double strain;                      // ‖E‖
+  double volume;                      // det F
 
   PointTerms(const Eigen::Matrix3Xd& g, const Eigen::MatrixX3d& displacement,
              const LameConstants& lame) {
@@ -29,6 +33,8 @@ struct PointTerms {
     left_cauchy_green = F * F.transpose();
     gradients = g.transpose() * g;
     stresses = g.transpose() * (S * g);
+    strain = E.norm();
+    volume = F.determinant();
   }
 };
 
@@ -63,6 +69,8 @@ void deform_element(mesh::ElementType type, const Eigen::MatrixX3d& nodes,
   const QuadratureRule& points = stiffness_rule(type, nodes, rule);
   result.force.setZero(3, n);
   result.tangent.setZero(3 * n, 3 * n);
+  result.strain = 0.0;
+  result.inside_out = false;
   Eigen::MatrixXd products = Eigen::MatrixXd::Zero(3 * n, 3 * n);
   for (Eigen::Index q = 0; q < points.weights.size(); ++q) {
     const Eigen::MatrixX3d reference =
@@ -73,6 +81,8 @@ void deform_element(mesh::ElementType type, const Eigen::MatrixX3d& nodes,
     result.force += weight * point.force;
     products.noalias() += (weight * point.a.reshaped()) * point.a.reshaped().transpose();
     add_point(point, weight, lame.mu, result.tangent);
+    result.strain = std::max(result.strain, point.strain);
+    result.inside_out = result.inside_out || !(point.volume > 0.0);
   }
   add_products(products, lame, result.tangent);
 }

@@ -20,8 +20,10 @@
 namespace microslip::fem {
 
 struct DeformedElement {
-  Eigen::Matrix3Xd force;  ///< f [N], a column per node
-  NodeBlocks tangent;      ///< T [N/m], 3n × 3n, symmetric
+  Eigen::Matrix3Xd force;   ///< f [N], a column per node
+  NodeBlocks tangent;       ///< T [N/m], 3n × 3n, symmetric
+  double strain = 0.0;      ///< ‖E‖, largest at the points of integration
+  bool inside_out = false;  ///< det F ≤ 0 at one of them
 };
 
 /// @param nodes         undeformed coordinates [m], n × 3, project order.

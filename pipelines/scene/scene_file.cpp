@@ -449,10 +449,34 @@ SceneDescription read_again(const SceneDescription& scene, const std::string& ke
   return scene_of(std::move(given), name, std::filesystem::absolute(scene.file).parent_path());
 }
 
+/// How finely a scene is solved, not what it is.
+bool is_setting(const std::string& key) {
+  return key.starts_with("response.") || key == "model.element_size" || key == "model.edge_size" ||
+         key == "modes.count" || key.ends_with(".points") || key.ends_with(".fit") ||
+         key.ends_with("_degree");
+}
+
+/// What an accuracy asked for has refined since the scene was read stays.
+void keep_refinement(SceneDescription& other, const SceneDescription& scene) {
+  other.settings = scene.settings;
+  const auto* blade = std::get_if<BladeModel>(&scene.model);
+  auto* other_blade = std::get_if<BladeModel>(&other.model);
+  if (blade != nullptr && other_blade != nullptr) other_blade->sizes = blade->sizes;
+  const auto* step = std::get_if<StepModel>(&scene.model);
+  auto* other_step = std::get_if<StepModel>(&other.model);
+  if (step != nullptr && other_step != nullptr) {
+    other_step->element_size = step->element_size;
+    other_step->faces = step->faces;
+  }
+}
+
 }  // namespace
 
 SceneDescription with_value(const SceneDescription& scene, const std::string& key, double value) {
-  return read_again(scene, key, value, {"optimum", "optimum_range", "optimum_at"});
+  SceneDescription other =
+      read_again(scene, key, value, {"optimum", "optimum_range", "optimum_at"});
+  if (!is_setting(key)) keep_refinement(other, scene);
+  return other;
 }
 
 SceneDescription with_formula_value(SceneDescription scene, const std::string& key, double value) {

@@ -86,6 +86,23 @@ TEST(Refinement, GivesABarMorePointsAndModes) {
   EXPECT_EQ(other->modes, bar_counts(both->scene)->modes);
 }
 
+// Best values were searched on the points, harmonics and elements of before.
+TEST(Refinement, StaysWhereAnotherNumberIsSearched) {
+  const SceneDescription scene = read_scene(MICROSLIP_SCENES "/blade_to_ground.toml");
+  std::string left;
+  const auto step = refinement(scene, {budget({{"mesh", 0.1}, {"harmonics", 0.1}, {"cells", 0.1}})},
+                               tolerance, spent, left);
+  ASSERT_TRUE(step.has_value());
+  for (const char* key : {"contact.friction_coefficient", "material.density"}) {
+    const SceneDescription other = with_value(step->scene, key, 0.25);
+    EXPECT_LT(element_size_of(other), element_size_of(scene)) << key;
+    EXPECT_EQ(element_size_of(other), element_size_of(step->scene)) << key;
+    EXPECT_EQ(other.settings.patches[0].n_points, step->scene.settings.patches[0].n_points) << key;
+    EXPECT_EQ(other.settings.harmonics.tolerance, step->scene.settings.harmonics.tolerance) << key;
+  }
+  EXPECT_EQ(element_size_of(with_value(step->scene, "model.element_size", 0.007)), 0.007);
+}
+
 TEST(Refinement, ObeysHarmonicsThatAreOff) {
   SceneDescription scene = blade();
   scene.effects.emplace_back("higher_harmonics", "off");
