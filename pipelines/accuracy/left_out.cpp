@@ -232,6 +232,20 @@ class ComparedPeaks {
   bool any_ = false;
 };
 
+/// Of two maxima side by side that are one resonance the lower tells nothing of its own, and what
+/// stands at its place with an effect is not its own either.
+bool is_beside_higher(const std::vector<solver::ResponseCurve>& peaks, std::size_t i) {
+  constexpr double beside = 5e-4;  // of the frequency
+  constexpr double as_high = 0.98;
+  const solver::ResponsePoint& own = *highest_peak(peaks[i]);
+  return std::any_of(peaks.begin(), peaks.begin() + static_cast<std::ptrdiff_t>(i),
+                     [&](const solver::ResponseCurve& other) {
+                       const solver::ResponsePoint& higher = *highest_peak(other);
+                       return std::abs(higher.frequency - own.frequency) < beside * own.frequency &&
+                              own.amplitude > as_high * higher.amplitude;
+                     });
+}
+
 Changes changes_of(const Comparison& of) {
   const Range range = range_of(of.options);
   const std::vector<solver::ResponseCurve> peaks = single_peaks(of.curve);
@@ -243,7 +257,7 @@ Changes changes_of(const Comparison& of) {
     told = compared.take_highest(*highest_peak(peaks.front())).value_or(Changes{});
     if (!told.empty() && std::isinf(told.front().effect)) return told;
     for (std::size_t i = 1; i < (of.all_peaks ? peaks.size() : 1); ++i) {
-      compared.take_lower(peaks[i]);
+      if (!is_beside_higher(peaks, i)) compared.take_lower(peaks[i]);
     }
   } else {
     told = without_peak(of, range);

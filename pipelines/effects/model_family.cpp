@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <iterator>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -58,6 +59,7 @@ ReducedModel model_on_basis(const SceneDescription& scene, const SolvedStructure
       reduce_to_contact(structure.mesh, scene, basis, structure.modes.residuals, warnings);
   if (structure.modes.static_face) {
     set_static_preload(model, structure.mesh, scene, *structure.modes.static_face);
+    std::ranges::move(static_preload_questions(model, scene), std::back_inserter(warnings));
   }
   return model;
 }

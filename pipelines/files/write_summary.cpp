@@ -138,9 +138,9 @@ Json bar_json(const CurveSummary& curve, const std::vector<ErrorRow>& budget) {
   return bar;
 }
 
-/// Significant digits that a relative half width allows.
-int digits_of(double bar) {
-  constexpr double most = 12.0;
+/// Significant digits that a relative half width allows. What it does not count may be larger.
+int digits_of(double bar, bool counts_all) {
+  const double most = counts_all ? 12.0 : 3.0;
   return static_cast<int>(bar > 0.0 ? std::clamp(std::floor(1.0 - std::log10(bar)), 1.0, most)
                                     : most);
 }
@@ -149,8 +149,9 @@ int digits_of(double bar) {
 Json digits_json(const Json& bar) {
   if (bar.is_null()) return nullptr;
   Json digits = Json::object();
+  const bool counts_all = bar.at("not_known").empty();
   for (const auto& [goal, width] : bar.items()) {
-    if (width.is_number()) digits[goal] = digits_of(width.get<double>());
+    if (width.is_number()) digits[goal] = digits_of(width.get<double>(), counts_all);
     if (width.is_null()) digits[goal] = nullptr;
   }
   return digits;

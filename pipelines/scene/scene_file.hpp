@@ -22,8 +22,8 @@ namespace microslip::pipelines {
                                            const std::filesystem::path& folder,
                                            const std::vector<std::string>& overrides = {});
 
-/// The scene with one number changed, and without its search for a best value. What an accuracy asked
-/// for has refined stays.
+/// The scene with one number changed, and without its search for a best value. What an accuracy
+/// asked for has refined stays.
 /// @param key  path as of --set.
 /// @throws SceneError  the value is none the key can have.
 [[nodiscard]] SceneDescription with_value(const SceneDescription& scene, const std::string& key,

@@ -35,6 +35,7 @@ SectionSpec keys_along(const SectionReader& s, const std::vector<std::string>& n
   if (in_section && names[0] != "response" && names[0] != "effects") {
     if (names.size() == 2) return section_spec(names[0], kind);
     if (names[1] == "forces") return section_spec("force", kind);
+    if (names[0] == "static" && names[1] == "pressure") return section_spec("static.pressure");
     if (names[1] == "points" && kind == "chain") return section_spec("contact.chain.point");
   }
   s.fail("optimum",

@@ -18,6 +18,7 @@
 #include "pipelines/model/contact_stage.hpp"
 #include "pipelines/model/nodal_load.hpp"
 #include "pipelines/structure/solver_memory.hpp"
+#include "pipelines/system/byte_archive.hpp"
 #include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {
@@ -207,16 +208,24 @@ std::vector<RestingPatch> patches_at_rest(const mesh::Mesh& mesh, const SceneDes
 double total_force(const SceneDescription& scene, const std::vector<RestingPatch>& patches) {
   double total = 0.0;
   double nearest = -std::numeric_limits<double>::infinity();
+  double between = nearest;  // the points
   for (const RestingPatch& patch : patches) {
     total += patch.sampling.weights.dot(patch.cells.pressure);
     nearest = std::max(nearest, patch.cells.approach.maxCoeff());
+    between = std::max(between, patch.vertices.approach.maxCoeff());
   }
   if (total > 0.0) return total;
+  if (between > 0.0) {
+    throw RefusedError(fmt::format(
+        "{}: the static loads press the contact between its points only, by {:.3g} m at most: take "
+        "more of them (contact.points), or raise the loads",
+        scene.contacts.front().static_preload_place, between));
+  }
   throw RefusedError(fmt::format(
       "{}: the static loads press no contact: where it is nearest it stays {:.3g} m away; turn or "
       "raise the loads of [static] (a force acts on the blade, the contact is pressed along its "
       "outward normal q), or make contact.gap smaller",
-      scene.contacts.front().static_preload_place, -nearest));
+      scene.contacts.front().static_preload_place, std::max(0.0, -nearest)));
 }
 
 /// n0' [Pa]: pressure, or −k_v times a gap with the stiffness the point has in motion.
@@ -306,6 +315,36 @@ void set_static_preload(ReducedModel& model, const mesh::Mesh& mesh, const Scene
   }
 }
 
+std::vector<std::string> static_preload_questions(const ReducedModel& model,
+                                                  const SceneDescription& scene) {
+  constexpr Eigen::Index few = 10;
+  constexpr double strongest = 3e9;  // [Pa]
+  Eigen::Index n_closed = 0;
+  Eigen::Index n_points = 0;
+  double area = 0.0;  // closed
+  for (const contact::Patch& patch : model.patches) {
+    const Eigen::ArrayXd closed = (patch.cells.preload_field.array() > 0.0).cast<double>();
+    n_closed += static_cast<Eigen::Index>(closed.sum());
+    n_points += closed.size();
+    area += closed.matrix().dot(patch.cells.weights);
+  }
+  const std::string& place = scene.contacts.front().static_preload_place;
+  std::vector<std::string> questions;
+  if (n_closed < few && n_closed < n_points) {
+    questions.push_back(fmt::format(
+        "{}: the static loads press {} of {} contact points: force and area of so few are no more "
+        "than a size; take more of them (contact.points)",
+        place, n_closed, n_points));
+  }
+  if (const double mean = *model.static_preload / area; mean > strongest) {
+    questions.push_back(fmt::format(
+        "{}: the static loads press with {:.2g} Pa in the mean of what is closed; usual is at most "
+        "{:.2g} (yield of steels 3e8 to 2e9): are loads, speed and contact.gap in their units?",
+        place, mean, strongest));
+  }
+  return questions;
+}
+
 std::string describe_static_preload(const mesh::Mesh& mesh, const SceneDescription& scene,
                                     const contact::ElasticFace& face) {
   const std::vector<RestingPatch> patches = patches_at_rest(mesh, scene, face);
@@ -333,6 +372,19 @@ contact::ElasticFace static_face(const mesh::Mesh& mesh, const SceneDescription&
     rotated = structure.rotate(mesh, scene.material, *scene.rotation);
   }
   return static_face(structure, mesh, scene, rotated);
+}
+
+std::string static_inputs(const mesh::Mesh& mesh, const SceneDescription& scene) {
+  const FaceFreedoms freedoms = face_freedoms(mesh, scene);
+  Eigen::MatrixXd rows(freedoms.size(), 4);
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    rows.row(i) << static_cast<double>(freedoms.nodes[k]), freedoms.directions[k];
+  }
+  ByteWriter bytes;
+  bytes(load_of(mesh, scene.static_loads));
+  bytes(rows);
+  return std::string(bytes.bytes());
 }
 
 std::string describe_static_preload(const mesh::Mesh& mesh, const SceneDescription& scene) {

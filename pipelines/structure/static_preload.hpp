@@ -5,6 +5,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -30,11 +31,19 @@ namespace microslip::pipelines {
 [[nodiscard]] contact::ElasticFace static_face(const mesh::Mesh& mesh,
                                                const SceneDescription& scene);
 
+/// What static_face() follows from beside the structure itself, as bytes.
+[[nodiscard]] std::string static_inputs(const mesh::Mesh& mesh, const SceneDescription& scene);
+
 /// Gives the patches of a model the preload that the face carries, at 1 N in all, and the model its
 /// total. Open points have gaps.
 /// @throws RefusedError  no contact is pressed; with the distances that are left.
 void set_static_preload(ReducedModel& model, const mesh::Mesh& mesh, const SceneDescription& scene,
                         const contact::ElasticFace& face);
+
+/// What is unusual of it: few points that are closed, a pressure that nothing bears. Sentences.
+/// @param model  as set_static_preload() has left it.
+[[nodiscard]] std::vector<std::string> static_preload_questions(const ReducedModel& model,
+                                                                const SceneDescription& scene);
 
 /// A line per contact: force, pressures, gaps, the share that is open.
 /// @throws RefusedError  as set_static_preload().

@@ -88,6 +88,18 @@ TEST(WriteSummary, CurveTellsItsPeakAndFoldsInHertz) {
   EXPECT_EQ(run["curves"][1]["complete"], false);
 }
 
+// A source that could not be told may err by more than all that could.
+TEST(WriteSummary, DigitsAreFewWhereABarDoesNotCountAll) {
+  RunSummary run = small_run();
+  run.error_budget = {{"preload_1000", peak_amplitude_goal, "basis", 2e-2},
+                      {"preload_1000", peak_frequency_goal, "basis", 6e-6}};
+  EXPECT_EQ(json::parse(summary_json(run))["curves"][0]["digits"]["peak_frequency"], 6);
+  run.curves[0].not_in_bar = {"cells"};
+  const json digits = json::parse(summary_json(run))["curves"][0]["digits"];
+  EXPECT_EQ(digits["peak_frequency"], 3);
+  EXPECT_EQ(digits["peak_amplitude"], 2);
+}
+
 TEST(WriteSummary, PeakIsTheHighestSolvedOneNotTheHighestPoint) {
   CurveResult result;
   result.curve.points = {synthetic::point(290, 1e-4), synthetic::point(295, 3e-4),

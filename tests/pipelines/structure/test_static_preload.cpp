@@ -216,6 +216,46 @@ TEST(StaticPreload, ATiltedEndPressesLinearlyAndIsOpenOnTheRest) {
   EXPECT_EQ(even.model.static_variation, tilted.model.static_variation);
 }
 
+/// Pressed where (a + b y) > 0.
+Solved pressed_at_an_edge(SceneDescription& scene, double a, double b) {
+  scene.contacts[0].gap = 0.0;
+  const mesh::Mesh mesh = bar(mesh::ElementType::hex20);
+  pull(scene, mesh, a, b);
+  return solve(scene, mesh);
+}
+
+// Rows of cells have their middles at 7/16, 5/16, … of the side: one of eight is pressed, or none
+// though their edge is.
+TEST(StaticPreload, OfFewPointsIsAsked) {
+  SceneDescription scene = bar_scene("", 1e-7 * E / L, "gap = -1");
+  const Solved edge = pressed_at_an_edge(scene, -3e6, 8e6 / side);
+  const std::vector<std::string> asked = static_preload_questions(edge.model, scene);
+  ASSERT_EQ(asked.size(), 1U);
+  EXPECT_NE(asked[0].find("press 8 of 64 contact points"), std::string::npos) << asked[0];
+  SceneDescription between = bar_scene("", 1e-7 * E / L, "gap = -1");
+  try {
+    static_cast<void>(pressed_at_an_edge(between, -3.7e6, 8e6 / side));
+    FAIL();
+  } catch (const RefusedError& error) {
+    EXPECT_NE(std::string(error.what()).find("between its points only, by 3e-08 m"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(StaticPreload, ThatNothingBearsIsAsked) {
+  for (const double force : {4e5, 8e5}) {  // [N], of which half presses
+    const SceneDescription scene = bar_scene(
+        fmt::format(R"(forces = [ {{ at = "x1", direction = [1, 0, 0], amplitude = {} }} ])",
+                    force),
+        1e13);
+    const std::vector<std::string> asked = static_preload_questions(solve(scene).model, scene);
+    EXPECT_EQ(asked.size(), force > 6e5 ? 1U : 0U);
+    if (force > 6e5)
+      EXPECT_NE(asked[0].find("4e+09 Pa in the mean"), std::string::npos) << asked[0];
+  }
+}
+
 // What more shapes do is asked of the same blade, pressed alike.
 TEST(StaticPreload, IsThatOfTheModelWithMoreShapesAsWell) {
   const SceneDescription scene =
