@@ -71,11 +71,12 @@ class Structure {
   /// modes and solutions. Once more with another speed: begun from the equilibrium before. Springs
   /// that were added are gone.
   /// @param mesh, material  those it was made of.
+  /// @param known           the displacement, where it was found before; empty: it was not.
   /// @return displacement of the equilibrium, 3 n_nodes [m].
   /// @throws EigenError  "rotation: …": the body floats, no equilibrium is found,
   ///         or it is not stable there.
-  Eigen::VectorXd rotate(const mesh::Mesh& mesh, const Material& material,
-                         const Rotation& rotation);
+  Eigen::VectorXd rotate(const mesh::Mesh& mesh, const Material& material, const Rotation& rotation,
+                         const Eigen::VectorXd& known = {});
   [[nodiscard]] Eigen::Index n_dofs() const;  ///< free degrees of freedom
   [[nodiscard]] double mass() const;          ///< [kg]
   /// @throws EigenError  fewer modes than asked, a pair not accurate, a missed mode, more zero

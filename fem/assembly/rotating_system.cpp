@@ -149,7 +149,8 @@ Attempt balanced(RotatingAssembly& assembly, const FeSystem& system, const mesh:
         size <= tolerance * std::max(norm(balance.load), step == 0 ? 0.0 : first);
     Eigen::VectorXd correction = Eigen::VectorXd::Zero(u.size());
     if (!is_balanced) {
-      const Factorisation tangent(system.stiffness.get(), FactorKind::indefinite);
+      // Without pivoting: a step that is poor where the tangent is indefinite ends the attempt.
+      const Factorisation tangent(system.stiffness.get(), FactorKind::positive_definite);
       correction = system.dofs.to_mesh(tangent.solve(rest));
     }
     // In thin bodies rounding leaves more out of balance than the load, which no displacement

@@ -90,8 +90,8 @@ class AssembledStructure : public StructureSolver {
  public:
   AssembledStructure(const mesh::Mesh& mesh, FeSystem assembled, Tet10Rule rule, SolverKind solver);
 
-  Eigen::VectorXd rotate(const mesh::Mesh& mesh, const Material& material,
-                         const Rotation& rotation) override;
+  Eigen::VectorXd rotate(const mesh::Mesh& mesh, const Material& material, const Rotation& rotation,
+                         const Eigen::VectorXd& known) override;
   [[nodiscard]] Eigen::Index n_dofs() const override { return 3 * system_.dofs.n_free_nodes(); }
   [[nodiscard]] double mass() const override { return system_.mass; }
   [[nodiscard]] ModalBasis solve_modes(const ModalOptions& options) override;
@@ -318,13 +318,15 @@ void AssembledStructure::drop_held_rigid_modes() {
 }
 
 Eigen::VectorXd AssembledStructure::rotate(const mesh::Mesh& mesh, const Material& material,
-                                           const Rotation& rotation) {
+                                           const Rotation& rotation, const Eigen::VectorXd& known) {
   if (rigid_.cols() > 0) {
     throw EigenError("rotation: " + std::to_string(rigid_.cols()) +
                      " rigid-body modes are free, nothing holds the body against its centrifugal "
                      "load: clamp what turns with it");
   }
-  if (rotating_.displacement.size() == 0) {
+  if (known.size() > 0) {
+    rotating_ = {known, rotation.speed};
+  } else if (rotating_.displacement.size() == 0) {
     rotating_.displacement = Eigen::VectorXd::Zero(3 * mesh.n_nodes());
   }
   inverse_.reset();

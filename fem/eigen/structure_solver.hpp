@@ -18,7 +18,7 @@ class StructureSolver {
   StructureSolver& operator=(StructureSolver&&) = delete;
 
   virtual Eigen::VectorXd rotate(const mesh::Mesh& mesh, const Material& material,
-                                 const Rotation& rotation) = 0;
+                                 const Rotation& rotation, const Eigen::VectorXd& known) = 0;
   [[nodiscard]] virtual Eigen::Index n_dofs() const = 0;
   [[nodiscard]] virtual double mass() const = 0;
   [[nodiscard]] virtual ModalBasis solve_modes(const ModalOptions& options) = 0;

@@ -15,8 +15,8 @@ Structure::Structure(Structure&&) noexcept = default;
 Structure& Structure::operator=(Structure&&) noexcept = default;
 
 Eigen::VectorXd Structure::rotate(const mesh::Mesh& mesh, const Material& material,
-                                  const Rotation& rotation) {
-  return solver_->rotate(mesh, material, rotation);
+                                  const Rotation& rotation, const Eigen::VectorXd& known) {
+  return solver_->rotate(mesh, material, rotation, known);
 }
 
 Eigen::Index Structure::n_dofs() const { return solver_->n_dofs(); }

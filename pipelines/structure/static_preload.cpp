@@ -357,7 +357,8 @@ std::string describe_static_preload(const mesh::Mesh& mesh, const SceneDescripti
   return text;
 }
 
-contact::ElasticFace static_face(const mesh::Mesh& mesh, const SceneDescription& scene) {
+contact::ElasticFace static_face(const mesh::Mesh& mesh, const SceneDescription& scene,
+                                 Eigen::VectorXd rotated) {
   if (fem::n_ranks() > 1) {
     throw RefusedError("contact.preload = \"static\" is solved on one rank: start without mpirun");
   }
@@ -367,9 +368,8 @@ contact::ElasticFace static_face(const mesh::Mesh& mesh, const SceneDescription&
       given_matrices(scene) != nullptr
           ? fem::Structure(mesh, matrices_of(mesh, scene), solver)
           : fem::Structure(mesh, scene.material, scene.clamped, fem::Tet10Rule::accurate, solver);
-  Eigen::VectorXd rotated;
   if (scene.rotation && scene.rotation->speed > 0.0) {
-    rotated = structure.rotate(mesh, scene.material, *scene.rotation);
+    rotated = structure.rotate(mesh, scene.material, *scene.rotation, rotated);
   }
   return static_face(structure, mesh, scene, rotated);
 }

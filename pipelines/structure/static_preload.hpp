@@ -27,9 +27,11 @@ namespace microslip::pipelines {
                                                const Eigen::VectorXd& rotated);
 
 /// The same, solved for: one more factorisation than the modes take.
+/// @param rotated  as above, where it is known; empty: it is found.
 /// @throws RefusedError, fem::EigenError  as above, fem::Structure::rotate(); on several MPI ranks.
 [[nodiscard]] contact::ElasticFace static_face(const mesh::Mesh& mesh,
-                                               const SceneDescription& scene);
+                                               const SceneDescription& scene,
+                                               Eigen::VectorXd rotated = {});
 
 /// What static_face() follows from beside the structure itself, as bytes.
 [[nodiscard]] std::string static_inputs(const mesh::Mesh& mesh, const SceneDescription& scene);

@@ -41,10 +41,10 @@ auto members(pipelines::Is<ElasticFace> auto& value) {
 namespace microslip::pipelines {
 
 auto members(Is<StructureModes> auto& value) {
-  auto& [n_dofs, mass, basis, residuals, attachment_text, notes, warnings, timings, richer,
+  auto& [n_dofs, mass, basis, residuals, attachment_text, notes, warnings, timings, richer, rotated,
          static_face] = value;
   return std::tie(n_dofs, mass, basis, residuals, attachment_text, notes, warnings, timings, richer,
-                  static_face);
+                  rotated, static_face);
 }
 
 }  // namespace microslip::pipelines

@@ -189,11 +189,12 @@ StructureModes solved(const StructureTask& task, const SolvedElsewhere& by) {
   return modes;
 }
 
-/// A factorisation and a solution for each node of the contact; of a body that rotates its
-/// equilibrium again.
-contact::ElasticFace kept_static_face(const mesh::Mesh& mesh, const SceneDescription& scene) {
+/// A factorisation and a solution for each node of the contact.
+/// @param rotated  as StructureModes has it.
+contact::ElasticFace kept_static_face(const mesh::Mesh& mesh, const SceneDescription& scene,
+                                      const Eigen::VectorXd& rotated) {
   ResultCache* cache = ResultCache::in_use();
-  if (cache == nullptr) return static_face(mesh, scene);
+  if (cache == nullptr) return static_face(mesh, scene, rotated);
   const ResultCache::Entry entry = cache->entry(
       "static", bytes_of(task_of(mesh, scene)) + static_inputs(mesh, scene) + arithmetic());
   contact::ElasticFace face;
@@ -202,7 +203,7 @@ contact::ElasticFace kept_static_face(const mesh::Mesh& mesh, const SceneDescrip
     reader(face);
     return face;
   }
-  face = static_face(mesh, scene);
+  face = static_face(mesh, scene, rotated);
   ByteWriter bytes;
   bytes(face);
   entry.keep(bytes.bytes());
@@ -326,7 +327,7 @@ StructureModes solve_structure(const mesh::Mesh& mesh, const SceneDescription& s
   if (given_modes(scene) != nullptr) return given_structure(mesh, scene);
   StructureModes modes = given_matrices(scene) != nullptr ? solved_from_matrices(mesh, scene)
                                                           : solved(task_of(mesh, scene), scene);
-  if (has_static_preload(scene)) modes.static_face = kept_static_face(mesh, scene);
+  if (has_static_preload(scene)) modes.static_face = kept_static_face(mesh, scene, modes.rotated);
   return modes;
 }
 
@@ -337,7 +338,7 @@ std::optional<StructureModes> kept_structure(const mesh::Mesh& mesh,
   const auto kept = cache->kept("modes", bytes_of(task_of(mesh, scene)) + arithmetic());
   if (!kept) return std::nullopt;
   StructureModes modes = modes_in(*kept);
-  if (has_static_preload(scene)) modes.static_face = kept_static_face(mesh, scene);
+  if (has_static_preload(scene)) modes.static_face = kept_static_face(mesh, scene, modes.rotated);
   return modes;
 }
 

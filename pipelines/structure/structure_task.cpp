@@ -120,6 +120,7 @@ void rotate(fem::Structure& structure, const StructureTask& task, StructureModes
                   "those about it",
                   30.0 * task.rotation->speed / std::numbers::pi,
                   u.reshaped(3, task.mesh.n_nodes()).colwise().norm().maxCoeff()));
+  result.rotated = u;
 }
 
 /// As many as are asked for, and about as many more as reach the frequency asked for.

@@ -33,6 +33,7 @@ struct StructureModes {
   std::vector<std::string> notes, warnings;  ///< about modes of another code, or rotation
   fem::ModalTimings timings;                 ///< 0: taken from an earlier run
   std::optional<fem::RicherBasis> richer;    ///< with attachment shapes of one degree more
+  Eigen::VectorXd rotated;  ///< displacement of the rotating body, 3 n_nodes [m]; empty: at rest
   /// Where static loads make the preload; solved for beside the task.
   std::optional<contact::ElasticFace> static_face;
 };
