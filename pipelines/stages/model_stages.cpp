@@ -74,7 +74,8 @@ StructurePointer solved_structure(const SceneDescription& scene, int cores, RunR
   if (given_modes(scene) == nullptr) {
     const double n_dofs = 3.0 * static_cast<double>(mesh.n_nodes());
     const double larger = is_extrapolated(scene) ? larger_elements_seconds(n_dofs, scene) : 0.0;
-    record.progress().expect(modes_seconds(n_dofs, scene.settings.basis) + larger);
+    record.progress().expect(modes_seconds(n_dofs, scene.settings.basis) +
+                             equilibrium_seconds(n_dofs, scene) + larger);
   }
   std::optional<StructureModes> modes = record.finished_modes();
   LargerElements larger(scene, mesh, modes ? 1 : cores);  // beside what is to be solved

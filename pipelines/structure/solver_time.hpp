@@ -13,10 +13,13 @@ namespace microslip::pipelines {
 /// for the steps hardly grow with the mesh.
 [[nodiscard]] double modes_seconds(double degrees_of_freedom, const BasisSettings& basis);
 
+/// What a static equilibrium adds to the modes: that of a rotating body, a contact pressed at rest.
+[[nodiscard]] double equilibrium_seconds(double degrees_of_freedom, const SceneDescription& scene);
+
 /// Of a mesh that is made here, of one freedom, where machine_slowness() is 1.
 inline constexpr double per_meshed_freedom = 7e-5;
 
-/// Of a mesh that is made here, or read, its modes and their linear limits.
+/// Of a mesh that is made here, or read, its modes, equilibria and linear limits.
 [[nodiscard]] double mesh_and_modes_seconds(double degrees_of_freedom,
                                             const SceneDescription& scene);
 
