@@ -27,7 +27,7 @@ namespace microslip::fem {
 /// Of them, those this process may run on, by a batch system or taskset.
 [[nodiscard]] int usable_cores();
 
-/// What meet_ranks() has found in another copy of this code, that of the solver module.
+/// What meet_ranks() has found in another copy of this code, that of the module.
 void know_ranks_here(int n);
 
 /// Begins a session: counts who is on this machine, and lets rank 0, which does alone what is not

@@ -1,7 +1,7 @@
-#include "fem/module/solver_module.hpp"
+#include "fem/module/fem_module.hpp"
 
 namespace microslip::fem {
 
-const SolverModule& solver_module() { return linked_solver_module(); }
+const FemModule& fem_module() { return linked_fem_module(); }
 
 }  // namespace microslip::fem

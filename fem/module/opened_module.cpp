@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "fem/module/solver_module.hpp"
+#include "fem/module/fem_module.hpp"
 #include "fem/petsc_error.hpp"
 
 namespace microslip::fem {
@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* file_name = "microslip-solver.so";
+constexpr const char* file_name = "microslip-fem.so";
 
 [[noreturn]] void refuse(const std::string& words) {
   // glibc has no other way to tell.
@@ -25,7 +25,7 @@ constexpr const char* file_name = "microslip-solver.so";
 }
 
 /// It stays open to the end, and its libraries with it.
-const SolverModule& opened() {
+const FemModule& opened() {
   const fs::path file = fs::read_symlink("/proc/self/exe").parent_path() / file_name;
   if (!fs::exists(file)) {
     throw std::runtime_error(std::string(file_name) +
@@ -33,15 +33,15 @@ const SolverModule& opened() {
   }
   void* library = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL);
   if (library == nullptr) refuse(dlerror());
-  void* shown = dlsym(library, solver_module_symbol);
+  void* shown = dlsym(library, fem_module_symbol);
   if (shown == nullptr) refuse(dlerror());
-  return *reinterpret_cast<const SolverModule* (*)()>(shown)();
+  return *reinterpret_cast<const FemModule* (*)()>(shown)();
 }
 
 }  // namespace
 
-const SolverModule& solver_module() {
-  static const SolverModule& module = opened();
+const FemModule& fem_module() {
+  static const FemModule& module = opened();
   return module;
 }
 

@@ -1,9 +1,8 @@
 /// @file
-/// All that the file of the module shows (solver_module_symbol).
+/// All that the file of the module shows (fem_module_symbol).
 
-#include "fem/module/solver_module.hpp"
+#include "fem/module/fem_module.hpp"
 
-extern "C" [[gnu::visibility("default")]] const microslip::fem::SolverModule*
-microslip_solver_module() {
-  return &microslip::fem::linked_solver_module();
+extern "C" [[gnu::visibility("default")]] const microslip::fem::FemModule* microslip_fem_module() {
+  return &microslip::fem::linked_fem_module();
 }

@@ -14,7 +14,7 @@
 #include <slepcversion.h>
 
 #include "fem/blas_threads.hpp"
-#include "fem/module/solver_module.hpp"
+#include "fem/module/fem_module.hpp"
 #include "fem/petsc_error.hpp"
 #include "fem/process/mpi_error.hpp"
 #include "fem/ranks.hpp"
@@ -62,14 +62,14 @@ SlepcSession::SlepcSession() {
   // as well.
   setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
   if (!started_in_parallel()) stay_alone();
-  know_ranks_here(solver_module().open());
+  know_ranks_here(fem_module().open());
   set_blas_threads(n_ranks_here());
   reserve_blas_memory();
   phase = Phase::open;
 }
 
 SlepcSession::~SlepcSession() {
-  solver_module().close();
+  fem_module().close();
   phase = Phase::over;
 }
 

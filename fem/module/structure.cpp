@@ -1,14 +1,14 @@
 #include "fem/modal_analysis.hpp"
-#include "fem/module/solver_module.hpp"
+#include "fem/module/fem_module.hpp"
 
 namespace microslip::fem {
 
 Structure::Structure(const mesh::Mesh& mesh, const Material& material,
                      const std::vector<std::string>& clamped, Tet10Rule rule, SolverKind solver)
-    : solver_(solver_module().assembled(mesh, material, clamped, rule, solver)) {}
+    : solver_(fem_module().assembled(mesh, material, clamped, rule, solver)) {}
 
 Structure::Structure(const mesh::Mesh& mesh, const GivenMatrices& matrices, SolverKind solver)
-    : solver_(solver_module().given(mesh, matrices, solver)) {}
+    : solver_(fem_module().given(mesh, matrices, solver)) {}
 
 Structure::~Structure() = default;
 Structure::Structure(Structure&&) noexcept = default;

@@ -13,7 +13,7 @@
 
 namespace microslip::fem {
 
-struct SolverModule {
+struct FemModule {
   /// Starts PETSc, SLEPc and MPI, and meets the other ranks. @return n_ranks_here().
   int (*open)() = nullptr;
   void (*close)() = nullptr;
@@ -25,16 +25,16 @@ struct SolverModule {
                                             SolverKind solver) = nullptr;
 };
 
-/// Name of the one function that the file of the module shows; it returns a const SolverModule*.
-inline constexpr const char* solver_module_symbol = "microslip_solver_module";
+/// Name of the one function that the file of the module shows; it returns a const FemModule*.
+inline constexpr const char* fem_module_symbol = "microslip_fem_module";
 
 /// The module itself, where it is linked.
-[[nodiscard]] const SolverModule& linked_solver_module();
+[[nodiscard]] const FemModule& linked_fem_module();
 
 /// The module that this program uses: linked (linked_module.cpp), or opened by the first call
 /// (opened_module.cpp).
 /// @throws MemoryError         the address space does not hold it.
 /// @throws std::runtime_error  its file does not lie beside the program, or is not of it.
-[[nodiscard]] const SolverModule& solver_module();
+[[nodiscard]] const FemModule& fem_module();
 
 }  // namespace microslip::fem

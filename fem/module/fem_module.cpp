@@ -1,4 +1,4 @@
-#include "fem/module/solver_module.hpp"
+#include "fem/module/fem_module.hpp"
 
 #include <cstdlib>
 #include <optional>
@@ -60,8 +60,8 @@ void close() {
 
 }  // namespace
 
-const SolverModule& linked_solver_module() {
-  static constexpr SolverModule module{&open, &close, &assembled_structure, &given_structure};
+const FemModule& linked_fem_module() {
+  static constexpr FemModule module{&open, &close, &assembled_structure, &given_structure};
   return module;
 }
 
