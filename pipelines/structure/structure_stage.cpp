@@ -325,10 +325,15 @@ StructureModes solve_structure(const mesh::Mesh& mesh, const SceneDescription& s
 
 StructureModes solve_structure(const mesh::Mesh& mesh, const SceneDescription& scene) {
   if (given_modes(scene) != nullptr) return given_structure(mesh, scene);
-  StructureModes modes = given_matrices(scene) != nullptr ? solved_from_matrices(mesh, scene)
-                                                          : solved(task_of(mesh, scene), scene);
-  if (has_static_preload(scene)) modes.static_face = kept_static_face(mesh, scene, modes.rotated);
-  return modes;
+  try {
+    StructureModes modes = given_matrices(scene) != nullptr ? solved_from_matrices(mesh, scene)
+                                                            : solved(task_of(mesh, scene), scene);
+    if (has_static_preload(scene)) modes.static_face = kept_static_face(mesh, scene, modes.rotated);
+    return modes;
+  } catch (const fem::EigenError& error) {
+    if (!std::string_view(error.what()).starts_with("rotation: ")) throw;
+    throw fem::EigenError(fmt::format("{}: {}", place_in(scene, "static.speed"), error.what()));
+  }
 }
 
 std::optional<StructureModes> kept_structure(const mesh::Mesh& mesh,

@@ -12,6 +12,7 @@
 
 #include "contact/patch/patch_load.hpp"
 #include "fem/elements/polynomial_tractions.hpp"
+#include "fem/petsc_error.hpp"
 #include "pipelines/accuracy/richer_models.hpp"
 #include "pipelines/effects/model_family.hpp"
 #include "pipelines/import/named_points.hpp"
@@ -167,6 +168,17 @@ TEST(StaticPreload, ARotatingBarPressesByItsCentrifugalLoad) {
       bar_scene("speed = 300\naxis = { origin = [-0.3, 0.005, 0], direction = [0, 0, 1] }", k));
   const double free = rho * omega * omega / E * (r * L * L / 2.0 + L * L * L / 3.0);
   EXPECT_LT(off(rest_loads(bar.model, *bar.model.static_preload), k * free / 1.5), 1e-4);
+}
+
+TEST(StaticPreload, ASpeedThatNothingStandsIsRefusedByItsName) {
+  try {
+    static_cast<void>(solve(bar_scene(
+        "speed = 1e6\naxis = { origin = [-0.3, 0.005, 0], direction = [0, 0, 1] }", 1e13)));
+    FAIL();
+  } catch (const fem::EigenError& error) {
+    EXPECT_TRUE(std::string(error.what()).starts_with("bar.toml:13: static.speed: rotation: "))
+        << error.what();
+  }
 }
 
 /// A force on every node of x1: the traction a + b y along x, y from the middle of the face.
