@@ -196,8 +196,9 @@ Eigen::VectorXd rotate_system(FeSystem& system, const mesh::Mesh& mesh, const Ma
       continue;
     }
     step *= std::min(0.5, attempt.reach > farthest ? farthest / attempt.reach : 1.0);
-    if (step < std::max(shortest, shortest_of_reached * reached))
+    if (step < std::max(shortest, shortest_of_reached * reached)) {
       refuse(rotation, std::sqrt(before + reached * (after - before)));
+    }
   }
   require_stable(system, rotation);
   return u;

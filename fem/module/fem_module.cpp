@@ -61,7 +61,8 @@ void close() {
 }  // namespace
 
 const FemModule& linked_fem_module() {
-  static constexpr FemModule module{&open, &close, &assembled_structure, &given_structure};
+  static constexpr FemModule module{MICROSLIP_FEM_HEADERS, &open, &close, &assembled_structure,
+                                    &given_structure};
   return module;
 }
 

@@ -14,6 +14,7 @@
 namespace microslip::fem {
 
 struct FemModule {
+  const char* headers = nullptr;  ///< fingerprint of those that program and module share
   /// Starts PETSc, SLEPc and MPI, and meets the other ranks. @return n_ranks_here().
   int (*open)() = nullptr;
   void (*close)() = nullptr;

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include "fem/module/fem_module.hpp"
@@ -41,7 +42,11 @@ const FemModule& opened() {
   if (library == nullptr) refuse(dlerror());
   void* shown = dlsym(library, fem_module_symbol);
   if (shown == nullptr) refuse(dlerror());
-  return *reinterpret_cast<const FemModule* (*)()>(shown)();
+  const FemModule& module = *reinterpret_cast<const FemModule* (*)()>(shown)();
+  if (std::string_view(module.headers) != MICROSLIP_FEM_HEADERS) {
+    refuse(file.string() + " is of another build than this program");
+  }
+  return module;
 }
 
 }  // namespace
