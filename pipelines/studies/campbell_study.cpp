@@ -1,7 +1,9 @@
 #include "pipelines/studies/campbell_study.hpp"
 
+#include <functional>
 #include <iostream>
 #include <numbers>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -17,13 +19,44 @@
 #include "pipelines/system/temporary_folder.hpp"
 
 namespace microslip::pipelines {
+namespace {
+
+using Say = std::function<void(const std::string&)>;
+
+/// The diagram; of one that stops on its way what was found is written before the error goes on.
+CampbellDiagram solved_diagram(const mesh::Mesh& mesh, const SceneDescription& scene,
+                               const CampbellRequest& request, const std::filesystem::path& folder,
+                               const Say& say) {
+  std::vector<Eigen::VectorXd> found;
+  try {
+    return campbell_diagram(
+        mesh, scene, request.speeds, [&](double speed, const Eigen::VectorXd& frequency) {
+          say(fmt::format("{:10.6g} rpm: {:.6g} Hz\n", 30.0 * speed / std::numbers::pi,
+                          fmt::join(frequency / (2.0 * std::numbers::pi), ", ")));
+          found.push_back(frequency);
+        });
+  } catch (...) {
+    if (!found.empty()) {
+      const auto n = static_cast<Eigen::Index>(found.size());
+      CampbellDiagram part{request.speeds.head(n), Eigen::MatrixXd(n, found.front().size())};
+      for (Eigen::Index i = 0; i < n; ++i)
+        part.frequency.row(i) = found[static_cast<std::size_t>(i)];
+      write_campbell(folder, part, crossings(part, request.highest_engine_order));
+      std::cerr << fmt::format("the first {} of {} speeds are written: {}\n", n,
+                               request.speeds.size(), folder.string());
+    }
+    throw;
+  }
+}
+
+}  // namespace
 
 int campbell_study(const SceneDescription& scene, const CampbellRequest& request,
                    const RunOptions& options) {
   require_rotation(scene);
   const std::filesystem::path folder = options.output / "campbell";
   const FolderToFill to_fill(folder);
-  const auto say = [&](const std::string& sentence) {
+  const Say say = [&](const std::string& sentence) {
     if (options.verbosity != Verbosity::quiet) std::cout << sentence << std::flush;
   };
   const ResultCache cache(options.cache, [&](const std::string& line) { say(line + '\n'); });
@@ -36,11 +69,7 @@ int campbell_study(const SceneDescription& scene, const CampbellRequest& request
   for (const std::string& question : questions(fastest, mesh)) {
     std::cerr << "warning: " << question << '\n';
   }
-  const CampbellDiagram diagram = campbell_diagram(
-      mesh, scene, request.speeds, [&](double speed, const Eigen::VectorXd& frequency) {
-        say(fmt::format("{:10.6g} rpm: {:.6g} Hz\n", 30.0 * speed / std::numbers::pi,
-                        fmt::join(frequency / (2.0 * std::numbers::pi), ", ")));
-      });
+  const CampbellDiagram diagram = solved_diagram(mesh, scene, request, folder, say);
   const std::vector<Crossing> found = crossings(diagram, request.highest_engine_order);
   write_campbell(folder, diagram, found);
   say(crossings_text(found));
