@@ -7,6 +7,7 @@
 #include "contact/contact_force.hpp"
 #include "pipelines/accuracy/bar_counts.hpp"
 #include "pipelines/accuracy/coarser_mesh.hpp"
+#include "pipelines/accuracy/given_mesh.hpp"
 #include "pipelines/response/solver_scenes.hpp"
 #include "pipelines/system/scene_error.hpp"
 
@@ -136,6 +137,12 @@ void add_bar(const ReducedModel& model, const SceneDescription& scene,
   }
 }
 
+std::optional<RicherModel> other_mesh(const ReducedModel& model, const SceneDescription& scene,
+                                      const SolvedStructure& structure, std::string& note) {
+  if (element_size_of(scene)) return coarser_mesh(model, scene, structure, note);
+  return without_mesh_excess(model, scene, structure);
+}
+
 bool is_fitted(const ReducedModel& model) {
   return std::ranges::any_of(model.patches,
                              [](const contact::Patch& patch) { return patch.fit_degree >= 0; });
@@ -186,7 +193,7 @@ RicherModels richer_models(const ReducedModel& model, const SceneDescription& sc
   }
   if (asked("eigensolver")) result.eigen_residual = structure->modes.basis.residual;
   if (model.patches.empty()) {
-    if (asked("mesh")) keep("mesh", coarser_mesh(model, scene, *structure, result.note));
+    if (asked("mesh")) keep("mesh", other_mesh(model, scene, *structure, result.note));
     return result;
   }
   if (asked("cells")) result.models.push_back(with_more_cells(model, scene, *structure));
@@ -202,7 +209,7 @@ RicherModels richer_models(const ReducedModel& model, const SceneDescription& sc
       result.models.push_back(std::move(*both));
     }
   }
-  if (asked("mesh")) keep("mesh", coarser_mesh(model, scene, *structure, result.note));
+  if (asked("mesh")) keep("mesh", other_mesh(model, scene, *structure, result.note));
   return result;
 }
 

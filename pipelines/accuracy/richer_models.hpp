@@ -39,8 +39,8 @@ struct RicherModels {
 
 /// Instants (events located in place of sampled forces), cells (four times as many), fit (the
 /// finite elements' own shapes), basis (tractions of one degree more), second_direction (friction
-/// along r) and mesh (coarser_mesh.hpp): those the scene has. Of a bar cells are its contact points
-/// and the basis its modes, several times as many of each, or a part of many.
+/// along r) and mesh (coarser_mesh.hpp, given_mesh.hpp): those the scene has. Of a bar cells are
+/// its contact points and the basis its modes, several times as many of each, or a part of many.
 /// @param structure  of the scene; nullptr: a kind that gives its modes itself.
 /// @param sources    the only ones asked for; empty: all.
 [[nodiscard]] RicherModels richer_models(const ReducedModel& model, const SceneDescription& scene,

@@ -49,7 +49,7 @@ ReducedModel telling_model_of(const SceneDescription& scene, const SolvedStructu
 MeshExcess telling_mesh_excess(const mesh::Mesh& mesh, const StructureModes& modes,
                                const SceneDescription& scene, Progress& progress) {
   const Progress::Part part = progress.part("jumps of stress between elements");
-  return mesh_excess(mesh, modes, scene);
+  return mesh_excess(frequency_excess(mesh, modes, scene), scene);
 }
 
 }  // namespace

@@ -52,31 +52,37 @@ bool are_quadratic(const mesh::Mesh& mesh) {
 
 }  // namespace
 
-MeshExcess mesh_excess(const mesh::Mesh& mesh, const StructureModes& modes,
-                       const SceneDescription& scene) {
-  MeshExcess told;
+FrequencyExcess frequency_excess(const mesh::Mesh& mesh, const StructureModes& modes,
+                                 const SceneDescription& scene) {
+  FrequencyExcess told;
   if (!is_told(scene, modes)) return told;
-  const std::vector<Eigen::Index> which = modes_of_range(scene, modes);
-  const Eigen::VectorXd excess =
-      fem::frequency_excess(mesh, scene.material, modes.basis.shapes(Eigen::all, which));
-  // Elements of first order lock, in bending and as ν nears 1/2, which makes no stress jump.
-  const char* at_least = are_quadratic(mesh) ? "" : " or more";
+  told.modes = modes_of_range(scene, modes);
+  told.excess =
+      fem::frequency_excess(mesh, scene.material, modes.basis.shapes(Eigen::all, told.modes));
+  told.is_whole = are_quadratic(mesh);
+  return told;
+}
+
+MeshExcess mesh_excess(const FrequencyExcess& excess, const SceneDescription& scene) {
+  MeshExcess told;
+  if (excess.modes.empty()) return told;
+  const char* at_least = excess.is_whole ? "" : " or more";
   std::vector<std::string> each;
-  for (std::size_t i = 0; i < which.size(); ++i) {
+  for (std::size_t i = 0; i < excess.modes.size(); ++i) {
     each.push_back(fmt::format("{:.2g} %{} (mode {})",
-                               percent * excess[static_cast<Eigen::Index>(i)], at_least,
-                               which[i] + 1));
+                               percent * excess.excess[static_cast<Eigen::Index>(i)], at_least,
+                               excess.modes[i] + 1));
   }
   told.text = fmt::format(
       "elements: by the jumps of stress between them natural frequencies are too high by some {}",
       fmt::join(each, ", "));
   const double limit = scene.accuracy.tolerance > 0.0 ? scene.accuracy.tolerance : worth_a_warning;
-  if (excess.maxCoeff() <= limit) return told;
+  if (excess.excess.maxCoeff() <= limit) return told;
   told.warning = fmt::format(
       "model.file: its elements put natural frequencies too high by up to some {:.2g} %{}, and "
-      "peaks with them, which is in no bar: take {}",
-      percent * excess.maxCoeff(), at_least,
-      are_quadratic(mesh) ? "smaller ones" : "quadratic ones");
+      "peaks with them{}: take {}",
+      percent * excess.excess.maxCoeff(), at_least, excess.is_whole ? "" : ", which is in no bar",
+      excess.is_whole ? "smaller ones" : "quadratic ones");
   return told;
 }
 

@@ -1,9 +1,12 @@
 /// @file
 /// What the elements of a mesh that is given do to its frequencies: there is no coarser mesh that
-/// an error budget could tell it by.
+/// could tell it.
 #pragma once
 
 #include <string>
+#include <vector>
+
+#include <Eigen/Core>
 
 #include "mesh/mesh.hpp"
 #include "pipelines/description/scene_description.hpp"
@@ -11,16 +14,28 @@
 
 namespace microslip::pipelines {
 
+/// (f − f₀)/f [-] of modes, by fem/stress_jumps.hpp.
+struct FrequencyExcess {
+  std::vector<Eigen::Index> modes{};  ///< from 0; none: not told
+  Eigen::VectorXd excess{};           ///< of each of them
+  /// Not of elements of first order, which lock, in bending and as ν nears 1/2: that makes no jump.
+  bool is_whole = true;
+};
+
+/// Of the modes up to the end of the frequency range, at least one and at most the last four, or
+/// the first four without a range. Not told of meshes made here, of modes and matrices of another
+/// code, nor of a body that rotates, whose stiffness is not that of its elements alone.
+/// @param modes  of the mesh as it is.
+[[nodiscard]] FrequencyExcess frequency_excess(const mesh::Mesh& mesh, const StructureModes& modes,
+                                               const SceneDescription& scene);
+
 struct MeshExcess {
   std::string
       text;  ///< of the modes up to the end of the frequency range, or the first; "": not told
   std::string warning;  ///< where it is more than is asked for, or than 2 %
 };
 
-/// By fem/stress_jumps.hpp. Not told of meshes made here, of modes and matrices of another code,
-/// nor of a body that rotates, whose stiffness is not that of its elements alone.
-/// @param modes  of the mesh as it is.
-[[nodiscard]] MeshExcess mesh_excess(const mesh::Mesh& mesh, const StructureModes& modes,
-                                     const SceneDescription& scene);
+/// What is said of it.
+[[nodiscard]] MeshExcess mesh_excess(const FrequencyExcess& excess, const SceneDescription& scene);
 
 }  // namespace microslip::pipelines

@@ -18,7 +18,7 @@ MeshExcess excess_of(const std::string& scene_file, const std::vector<std::strin
       read_scene(std::string(MICROSLIP_SCENES) + "/" + scene_file, overrides);
   const TemporaryFolder folder;
   const SolvedStructure structure = solved_structure(scene, folder.path() / "mesh.msh");
-  return mesh_excess(structure.mesh, structure.modes, scene);
+  return mesh_excess(frequency_excess(structure.mesh, structure.modes, scene), scene);
 }
 
 TEST(MeshExcess, OfAGivenMeshIsToldOfTheModesUpToTheEndOfTheRange) {

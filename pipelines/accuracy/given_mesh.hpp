@@ -1,0 +1,21 @@
+/// @file
+/// The error of a mesh that is given, which has no coarser one beside it: what its elements do to
+/// natural frequencies is told by the jumps of stress between them (structure/mesh_excess.hpp).
+#pragma once
+
+#include <optional>
+
+#include "pipelines/accuracy/richer_models.hpp"
+
+namespace microslip::pipelines {
+
+/// The model with the natural frequencies its elements would have without their error. Modes that
+/// nothing is told of, those above the range and the attachment shapes, err as the worst that is.
+/// Shapes stay. `share` is 2: what is told is 0.5 to 2 times the error (fem/stress_jumps.hpp).
+/// @return empty: no mesh from elsewhere, or elements of first order, which lock: of them the jumps
+///         tell a part.
+[[nodiscard]] std::optional<RicherModel> without_mesh_excess(const ReducedModel& model,
+                                                             const SceneDescription& scene,
+                                                             const SolvedStructure& structure);
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,125 @@
+// What is told of the mesh of a file, beside what finer elements of the same body give.
+#include "pipelines/accuracy/given_mesh.hpp"
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "pipelines/accuracy/error_budget.hpp"
+#include "pipelines/effects/model_family.hpp"
+#include "pipelines/import/named_points.hpp"
+#include "pipelines/response/highest_peak.hpp"
+#include "pipelines/response/response_stage.hpp"
+#include "pipelines/scene/scene_file.hpp"
+#include "pipelines/structure/structure_stage.hpp"
+#include "pipelines/system/temporary_folder.hpp"
+#include "tests/support/box_mesh.hpp"
+
+namespace microslip::pipelines::test_given_mesh {
+namespace {
+
+constexpr const char* blade = MICROSLIP_SCENES "/blade_to_ground.toml";
+
+/// The default blade from a file instead of its geometry.
+SceneDescription from_file(const std::filesystem::path& mesh,
+                           const std::vector<std::string>& overrides = {}) {
+  std::ifstream stream(blade);
+  std::string text{std::istreambuf_iterator<char>(stream), {}};
+  const std::string geometry = "kind = \"blade\"\nelement_size = \"3 mm\"";
+  text.replace(text.find(geometry), geometry.size(),
+               "kind = \"mesh\"\nfile = \"" + mesh.string() + "\"");
+  return parse_scene(text, "from_file.toml", mesh.parent_path(), overrides);
+}
+
+double peak_of(const CurveResult& curve) { return highest_peak(curve.curve)->frequency; }
+
+class GivenMesh : public testing::Test {
+ protected:
+  /// Peak of a limit on elements of 5 mm [rad/s].
+  static double exact(LimitName limit) {
+    const SceneDescription scene = read_scene(blade, {"model.element_size=\"5 mm\""});
+    const TemporaryFolder folder;
+    const SolvedStructure structure = solved_structure(scene, folder.path() / "fine.msh");
+    std::vector<std::string> warnings;
+    const ReducedModel model = model_of(scene, &structure, warnings);
+    return peak_of(trace_curve(model, scene, {"limit", limit}, [](const auto&) { return true; }));
+  }
+  const TemporaryFolder folder_;
+};
+
+TEST_F(GivenMesh, HasARowOfItsElements) {
+  const std::filesystem::path file = folder_.path() / "blade.msh";
+  static_cast<void>(solved_structure(read_scene(blade, {"model.element_size=\"12 mm\""}), file));
+  const SceneDescription scene = from_file(file);
+  const SolvedStructure structure = solved_structure(scene, folder_.path() / "mesh.msh");
+  std::vector<std::string> warnings;
+  const ReducedModel model = model_of(scene, &structure, warnings);
+  const RicherModels richer = richer_models(model, scene, &structure, {"mesh"});
+  ASSERT_EQ(richer.models.size(), 1U);
+  EXPECT_TRUE(richer.unknown.empty());
+  for (const auto& [name, limit] :
+       {std::pair{"free", LimitName::free}, {"stuck", LimitName::stuck}}) {
+    const CurveResult curve =
+        trace_curve(model, scene, {name, limit}, [](const auto&) { return true; });
+    const CurveBudget budget = error_budget(model, scene, richer, curve);
+    const double told = bar_of(budget.rows, name, peak_frequency_goal);
+    const double wrong = peak_of(curve) / exact(limit) - 1.0;
+    std::printf("%s: told %.2f %%, true %.2f %%\n", name, 100.0 * told, 100.0 * wrong);
+    EXPECT_GT(wrong, 0.01) << name << ": elements of 12 mm are large";
+    EXPECT_GT(told, wrong) << name;
+    EXPECT_LT(told, 4.0 * wrong) << name;
+  }
+}
+
+constexpr const char* of_a_box = R"([model]
+kind = "mesh"
+file = "box.msh"
+[material]
+youngs_modulus = 2e11
+poissons_ratio = 0.3
+density = 8000
+[supports]
+clamped = ["x0"]
+[modes]
+count = 2
+[[contact]]
+surface = "x1"
+slip_direction = [0, 1, 0]
+friction_coefficient = 0.4
+normal_stiffness = 1e10
+tangential_stiffness = 1e10
+[excitation]
+forces = [ { at = "corner", direction = [0, 1, 0], amplitude = 1 } ]
+[response]
+output = { at = "corner", direction = [0, 1, 0] }
+frequency = [1000, 2000]
+preload = [10]
+)";
+
+// Elements of first order lock in bending, which makes no jump of stress.
+TEST_F(GivenMesh, IsNotKnownWhereJumpsTellAPart) {
+  const SceneDescription scene = parse_scene(of_a_box, "box.toml", "/", {});
+  for (const auto type : {mesh::ElementType::hex8, mesh::ElementType::hex20}) {
+    mesh::Mesh box =
+        test::box_mesh(type, {.size = {0.1, 0.01, 0.01}, .cells = {8, 2, 2}, .map = {}});
+    name_points(box, scene);
+    StructureModes modes = solve_structure(box, scene);
+    const SolvedStructure structure{std::move(box), std::move(modes)};
+    std::vector<std::string> warnings;
+    const ReducedModel model = model_of(scene, &structure, warnings);
+    const RicherModels richer = richer_models(model, scene, &structure, {"mesh"});
+    const bool locks = type == mesh::ElementType::hex8;
+    EXPECT_EQ(richer.models.empty(), locks);
+    EXPECT_EQ(richer.unknown,
+              locks ? std::vector<std::string>{"mesh"} : std::vector<std::string>{});
+  }
+}
+
+}  // namespace
+}  // namespace microslip::pipelines::test_given_mesh
