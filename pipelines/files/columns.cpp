@@ -434,13 +434,20 @@ constexpr std::array map_table{
 
 constexpr double degree = std::numbers::pi / 180.0;
 
+/// Angles; −1 where there is none: readers of files stumble over NaN.
+Eigen::MatrixXd begins_in_degrees(const Eigen::MatrixXd& begins) {
+  return (begins.array() == begins.array()).select(begins.array() / degree, -1.0);
+}
+
 using Transitions = Dataset<ContactMap, Eigen::MatrixXd>;
 constexpr std::array transition_table{
-    Transitions{"state_start_deg", "deg",
-                "where each state first begins, places x 5; NaN: never, or it lasts throughout",
-                [](const ContactMap& m) -> Eigen::MatrixXd { return m.state_start / degree; }},
-    Transitions{"state_starts_deg", "deg", "all its begins, m columns for each state; NaN beyond",
-                [](const ContactMap& m) -> Eigen::MatrixXd { return m.state_starts / degree; }},
+    Transitions{
+        "state_start_deg", "deg",
+        "where each state first begins, places x 5; -1: never, or it lasts throughout",
+        [](const ContactMap& m) -> Eigen::MatrixXd { return begins_in_degrees(m.state_start); }},
+    Transitions{
+        "state_starts_deg", "deg", "all its begins, m columns for each state; -1 beyond",
+        [](const ContactMap& m) -> Eigen::MatrixXd { return begins_in_degrees(m.state_starts); }},
     Transitions{"state_share", "1", "of the period in each state, places x 5",
                 [](const ContactMap& m) { return m.state_share; }},
 };
@@ -449,9 +456,9 @@ constexpr std::array<const char*, 5> stem_table{"stick", "positive_slip", "negat
                                                 "separation", "slip"};
 using OfState = StateArray<Eigen::VectorXd>;
 constexpr std::array state_table{
-    OfState{"start_deg", "deg", "where it first begins; NaN: never, or it lasts throughout",
+    OfState{"start_deg", "deg", "where it first begins; -1: never, or it lasts throughout",
             [](const ContactMap& m, Eigen::Index state) -> Eigen::VectorXd {
-              return m.state_start.col(state) / degree;
+              return begins_in_degrees(m.state_start.col(state));
             }},
     OfState{"share", "1", "of the period",
             [](const ContactMap& m, Eigen::Index state) -> Eigen::VectorXd {

@@ -20,14 +20,14 @@ namespace microslip::pipelines {
 ///   `slip_distance_m`, `wear_depth_m`; as cell data (values of the contact points, crisp colours)
 ///   and, where the map has vertices, as point data (smooth fields). For each state STATE of stick,
 ///   positive_slip, negative_slip, separation, slip (in two directions): `STATE_start_deg` where it
-///   first begins (NaN: never, or it lasts the whole period), `STATE_starts` how often it begins,
+///   first begins (-1: never, or it lasts the whole period), `STATE_starts` how often it begins,
 ///   `STATE_share` of the period. Guards of the period `slip_guard_Pa`, `smallest_load_Pa`,
 ///   `largest_load_Pa`: their zero lines part points that stick throughout from those that slip,
 ///   that never open from those that do, that touch at times from those always open. Field arrays
 ///   `frequency_Hz`, `phase_deg`, `state_names`.
 /// - NAME.pvd: the series; time is the phase in degrees, 0 … 360.
 /// - NAME.h5: the same arrays over all phases (n × m), `/phase_deg`, every start of every state
-///   (`/state_starts_deg`, n × 5k: k columns per state, NaN beyond its last), the transition fields
+///   (`/state_starts_deg`, n × 5k: k columns per state, -1 beyond its last), the transition fields
 ///   at the vertices (`/vertex_…`), and the patch in its plane:
 ///   `/points` (n × 2: p, r), `/vertices`, `/cells`.
 ///

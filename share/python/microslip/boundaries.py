@@ -31,6 +31,11 @@ class Vertices:
     guards: dict = field(default_factory=dict)
 
 
+def starts_of_states(stored: np.ndarray) -> list[np.ndarray]:
+    """`vertex_state_starts_deg` of a map by state; files have -1 where there is none."""
+    return np.split(np.where(stored < 0, np.nan, stored), 5, axis=1)
+
+
 def triangles_of(cells: np.ndarray) -> np.ndarray:
     """Corner numbers of triangles; quadrilaterals are cut in two."""
     if cells.shape[1] == 3:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from microslip.boundaries import GUARDS, Vertices, triangles_of
+from microslip.boundaries import GUARDS, Vertices, starts_of_states, triangles_of
 from microslip.files import AGAIN, RunError, data_file, require_shape, shown
 
 class ContactMap:
@@ -32,7 +32,7 @@ class ContactMap:
             if len(cells) and "vertex_state_starts_deg" in file:
                 guards = {name: file[f"vertex_{name}_Pa"][:] for name in GUARDS if f"vertex_{name}_Pa" in file}
                 self.vertices = Vertices(vertices, triangles_of(cells), self.phase, file["vertex_state"][:],
-                                         np.split(file["vertex_state_starts_deg"][:], 5, axis=1), guards)
+                                         starts_of_states(file["vertex_state_starts_deg"][:]), guards)
         self.lay_flat(vertices if self.cells is not None else self.points)
 
     def lay_flat(self, corners: np.ndarray) -> None:

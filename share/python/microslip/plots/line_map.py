@@ -66,7 +66,7 @@ class LineMap:
 
 def cycle_of(starts: np.ndarray) -> Cycle:
     """[(state, angle at which it begins [deg]), …] in order of time; empty: one state all the time."""
-    return sorted(((state, angle) for state, row in enumerate(starts) for angle in row if np.isfinite(angle)),
+    return sorted(((state, angle) for state, row in enumerate(starts) for angle in row if angle >= 0),
                   key=lambda change: change[1])
 
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from microslip.arrows import arrows_at
 from microslip.branch import AMPLITUDE, PHASE, cubics
-from microslip.boundaries import GUARDS, Vertices, instant_boundaries, parted_cells, period_boundaries, triangles_of
+from microslip.boundaries import GUARDS, Vertices, instant_boundaries, parted_cells, period_boundaries, starts_of_states, triangles_of
 from microslip.files import RunError, trace_in
 from microslip.kept import Kept, bytes_in, digest, sources_in
 from microslip.plots.numbers import is_number, length_unit, plain
@@ -209,7 +209,7 @@ def vertices_of(contact: ContactMap, corners: np.ndarray, cells: np.ndarray) -> 
     if not len(cells) or "vertex_state_starts_deg" not in contact:
         return None
     guards = {name: contact[f"vertex_{name}_Pa"] for name in GUARDS if f"vertex_{name}_Pa" in contact}
-    starts = np.split(contact["vertex_state_starts_deg"], 5, axis=1)
+    starts = starts_of_states(contact["vertex_state_starts_deg"])
     return Vertices(corners, triangles_of(cells), contact["phase_deg"], contact["vertex_state"], starts, guards)
 
 
