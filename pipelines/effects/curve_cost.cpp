@@ -408,7 +408,8 @@ ResponseSeconds response_seconds(const SceneDescription& scene, const CurveEffec
                   evaluations * evaluation + (one ? 1.0 : points_of_a_curve) * stability) +
          check_seconds(scene, effects, size));
     seconds.curves +=
-        searched_share(scene, effects) * search_seconds(scene, effects, likely_starts(scene));
+        searched_share(scene, effects) *
+        search_seconds(scene, effects, likely_starts(scene, effects.second_direction));
     if (scene.accuracy.error_budget) {
       const bool meshed = !scene.contacts.empty();
       const double in_plane = effects.second_direction ? 2.0 : 1.0;

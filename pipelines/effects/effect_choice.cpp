@@ -30,9 +30,11 @@ using enum Simulated;
 
 constexpr double percent = 100.0;
 constexpr int starts_of_a_search = 12;
-// Of one that nobody has asked for, per frequency of a curve: of three two found what twelve did.
+// Of one that nobody has asked for, per frequency of a curve, where twelve take long: of three two
+// found what twelve did.
 constexpr int starts_beside_a_curve = 4;
 constexpr double bearable_search = 60.0;  // [s]: what a scene may wait for without having asked
+constexpr double short_search = 0.1;      // [s] beside one curve: for what is seldom there
 constexpr const char* in_reach =          // of `coexistence`, after which resonance
     "closes a gap, opens the contact or overcomes friction that falls with speed";
 constexpr const char* limits_alone = "only the limits are asked for";
@@ -370,9 +372,14 @@ EffectDecision wear(const EffectFacts& facts) {
                          : "response.maps asks for no map to show it in");
 }
 
+bool is_short(double search, const SceneDescription& scene) {
+  return search <= short_search * static_cast<double>(curve_requests(scene).size());
+}
+
 EffectDecision coexistence(const EffectFacts& facts) {
   const SceneDescription& scene = facts.scene;
   EffectDecision decision;
+  const double threshold = effect_row("coexistence").threshold;
   const bool one = is_single_frequency(scene);
   if (facts.reach) decision.indicator = one ? facts.reach->nearby : facts.reach->outside;
   const char* resonance = one ? "resonance near by" : "resonance outside the range";
@@ -391,11 +398,20 @@ EffectDecision coexistence(const EffectFacts& facts) {
   }
   if (facts.model == nullptr) return decided(undecided, later);
   if (!facts.reach) return decided(no, limits_alone);
-  if (*decision.indicator <= effect_row("coexistence").threshold) {
-    return decided(no, fmt::format("in the linear limits no {} {}{}", resonance, in_reach,
-                                   one ? "" : "; folds of curves are followed"));
-  }
   const double seconds = seconds_of_search(facts);
+  if (*decision.indicator <= threshold) {
+    if (one || facts.reach->nearby <= threshold) {
+      return decided(no, fmt::format("in the linear limits no {} {}", resonance, in_reach));
+    }
+    if (!is_short(seconds, scene)) {
+      return decided(no, fmt::format("a resonance in the range {}: folds of its curve are "
+                                     "followed; branches that no sweep meets are not looked for, "
+                                     "which would take some {:.2g} s",
+                                     in_reach, seconds));
+    }
+    decision.indicator = facts.reach->nearby;
+    resonance = "resonance in the range";
+  }
   if (seconds > bearable_search) {
     return decided(
         no,
@@ -514,7 +530,7 @@ EffectDecision decide(const EffectRow& row, const EffectFacts& facts) {
 
 double seconds_of_search(const EffectFacts& facts) {
   return search_seconds(facts.scene, curve_effects(facts.scene, facts.both_directions),
-                        likely_starts(facts.scene));
+                        likely_starts(facts.scene, facts.both_directions));
 }
 
 std::string harmonics_text(const SceneDescription& scene) {
@@ -535,10 +551,13 @@ int asked_starts(const SceneDescription& scene) {
   return scene.response->search_starts.value_or(on ? starts_of_a_search : 0);
 }
 
-int likely_starts(const SceneDescription& scene) {
+int likely_starts(const SceneDescription& scene, bool both_directions) {
   const int asked = asked_starts(scene);
   if (asked > 0) return asked;
-  return is_single_frequency(scene) ? starts_of_a_search : starts_beside_a_curve;
+  if (is_single_frequency(scene)) return starts_of_a_search;
+  const double all =
+      search_seconds(scene, curve_effects(scene, both_directions), starts_of_a_search);
+  return is_short(all, scene) ? starts_of_a_search : starts_beside_a_curve;
 }
 
 int search_starts(const SceneDescription& scene, const ReducedModel& model, double load) {
@@ -548,7 +567,8 @@ int search_starts(const SceneDescription& scene, const ReducedModel& model, doub
   facts.has_contact = true;
   facts.both_directions = model.effects.second_direction;
   facts.reach = or_refused([&] { return contact_reach(model, scene, load); });
-  return coexistence(facts).simulated == yes ? likely_starts(scene) : 0;
+  return coexistence(facts).simulated == yes ? likely_starts(scene, model.effects.second_direction)
+                                             : 0;
 }
 
 CurveEffects decided_curve_effects(const SceneDescription& scene, const ReducedModel& model) {

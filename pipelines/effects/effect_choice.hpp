@@ -62,8 +62,9 @@ struct EffectDecision {
 /// A search for other solutions beside all curves of a scene, forecast [s].
 [[nodiscard]] double seconds_of_search(const EffectFacts& facts);
 
-/// Starts per frequency of a search that is made, asked for or not. @param scene  with [response].
-[[nodiscard]] int likely_starts(const SceneDescription& scene);
+/// Starts per frequency of a search that is made, asked for or not: twelve where that is short.
+/// @param scene  with [response]. @param both_directions  friction is simulated along.
+[[nodiscard]] int likely_starts(const SceneDescription& scene, bool both_directions);
 
 /// Starts per frequency of that search, where the scene asks for one; 0: it does not.
 [[nodiscard]] int asked_starts(const SceneDescription& scene);

@@ -125,10 +125,18 @@ const ReducedModel& ModelFamily::at(double value, double stiffness_factor) {
   const std::pair place{value, stiffness_factor};
   const auto known = models_.find(place);
   if (known != models_.end()) return known->second;
-  SceneDescription changed = with_value(scene_, key_, value);
+  SceneDescription changed = scene_at(value);
   const Structure structure = structure_at(value, changed);
   return models_.emplace(place, reduced(std::move(changed), stiffness_factor, structure.get()))
       .first->second;
+}
+
+SceneDescription ModelFamily::scene_at(double value) const {
+  return with_value(scene_, key_, value);
+}
+
+std::shared_ptr<const SolvedStructure> ModelFamily::structure_at(double value) {
+  return structure_at(value, scene_at(value));
 }
 
 const ReducedModel& ModelFamily::as_given(double stiffness_factor) {

@@ -58,6 +58,10 @@ class ModelFamily {
   ///                          in keys (contact_factors.hpp) only.
   /// @throws SceneError, RefusedError  no scene, or none that can be simulated, at this value.
   [[nodiscard]] const ReducedModel& at(double value, double stiffness_factor = 1.0);
+  /// The scene at a value. @throws SceneError  none.
+  [[nodiscard]] SceneDescription scene_at(double value) const;
+  /// Its mesh and modes; nullptr as above. @throws as at().
+  [[nodiscard]] std::shared_ptr<const SolvedStructure> structure_at(double value);
   /// The model of the scene as it is but for its local contact stiffness.
   [[nodiscard]] const ReducedModel& as_given(double stiffness_factor);
 

@@ -291,7 +291,9 @@ TEST(Effects, OtherSolutionsAreLookedForWhereAResonanceNearByReachesThem) {
   const std::string gap = "modal.points[0].preload=-4";
   EXPECT_GT(starts({gap}), 0);
   EXPECT_EQ(starts({"modal.points[0].preload=-4e6"}), 0);     // out of reach
-  EXPECT_EQ(starts({gap, "response.frequency=[8, 12]"}), 0);  // the curve passes the resonance
+  EXPECT_GT(starts({gap, "response.frequency=[8, 12]"}), 0);  // that takes little
+  // The curve passes the resonance, and a search with many harmonics takes long.
+  EXPECT_EQ(starts({gap, "response.frequency=[8, 12]", "response.harmonics=99"}), 0);
   EXPECT_GT(starts({gap, "response.frequency=[10.3, 12]"}), 0);
   EXPECT_GT(starts({gap, "response.frequency=[8, 12]", "effects.coexistence=on"}), 0);
   EXPECT_EQ(starts({gap, "response.search_starts=3"}), 3);
