@@ -74,9 +74,10 @@ std::optional<RicherModel> coarser_mesh(const ReducedModel& model, const SceneDe
       return coarser_model(model, scene, structure.coarser->twice,
                            extrapolated_ratio(structure, scene));
     }
-    const SolvedStructure twice =
-        on_larger_elements(scene, 2.0, model.frequency.size() - model.n_attachment);
-    const SolvedStructure four_times = on_larger_elements(scene, 4.0, scene.settings.basis.n_modes);
+    const SolvedStructure& twice =
+        on_larger_elements(scene, structure, 2.0, model.frequency.size() - model.n_attachment);
+    const SolvedStructure& four_times =
+        on_larger_elements(scene, structure, 4.0, scene.settings.basis.n_modes);
     const double ratio = observed_ratio(model.frequency[0], twice.modes.basis.frequency[0],
                                         four_times.modes.basis.frequency[0]);
     const double refinement = refinement_between(structure.mesh, twice.mesh, scene);

@@ -20,23 +20,23 @@
 namespace microslip::pipelines {
 namespace {
 
-constexpr std::array neighbours{0.84, 1.0, 1.19};
+constexpr std::size_t n_about = 3;
 constexpr std::size_t middle = 1;
-using Effects = std::array<std::optional<double>, neighbours.size()>;  // at each of them
+using Effects = std::array<std::optional<double>, n_about>;  // at each of them
 
-/// Amplitudes over the preload, between the values that the search has solved for.
+/// Amplitudes over the number searched, between the values that the search has solved for.
 class Peaks {
  public:
   explicit Peaks(const std::vector<solver::PeakOfParameter>& trace) : trace_(trace) {}
 
-  [[nodiscard]] double at(double load) const {
+  [[nodiscard]] double at(double value) const {
     const auto after =
-        std::ranges::lower_bound(trace_, load, {}, &solver::PeakOfParameter::parameter);
+        std::ranges::lower_bound(trace_, value, {}, &solver::PeakOfParameter::parameter);
     if (after == trace_.end()) return trace_.back().amplitude;
-    if (after == trace_.begin() || after->parameter == load) return after->amplitude;
+    if (after == trace_.begin() || after->parameter == value) return after->amplitude;
     const auto before = after - 1;
     const double share =
-        std::log(load / before->parameter) / std::log(after->parameter / before->parameter);
+        std::log(value / before->parameter) / std::log(after->parameter / before->parameter);
     return std::pow(before->amplitude, 1.0 - share) * std::pow(after->amplitude, share);
   }
 
@@ -46,7 +46,7 @@ class Peaks {
 
 using Values = PeaksAboutBest;
 
-/// A branch that a sweep does not meet begins or ends at the best preload: on one side of it the
+/// A branch that a sweep does not meet begins or ends at the best value: on one side of it the
 /// nearest curve that was traced whole has its highest peak on such a branch.
 bool is_beside_detached(const solver::Optimum& optimum) {
   const auto is_told = [](const solver::PeakOfParameter& one) { return one.whole_curve; };
@@ -59,50 +59,52 @@ bool is_beside_detached(const solver::Optimum& optimum) {
   return (after != trace.end() && after->detached) || (before != trace.rend() && before->detached);
 }
 
-/// The search has followed the peaks of these curves. Beside the best preload a curve may be higher
+/// The search has followed the peaks of these curves. Beside the best value a curve may be higher
 /// than what was followed there, not as high as where a peak has jumped: that says nothing of its
 /// place.
-bool are_those_followed(const Values& amplitudes, const solver::Optimum& optimum) {
-  constexpr double same = 0.01;   // at the best preload itself
+bool are_those_followed(const ValuesAboutBest& values, const Values& amplitudes,
+                        const solver::Optimum& optimum) {
+  constexpr double same = 0.01;   // at the best value itself
   constexpr double nearly = 0.1;  // between values that were solved for
   constexpr double jumped = 2.0;  // times the lowest
   const Peaks followed(optimum.trace);
-  const double best = optimum.best.parameter;
   if (is_beside_detached(optimum)) return false;
   for (std::size_t i = 0; i < amplitudes.size(); ++i) {
-    const double change = amplitudes[i] / followed.at(neighbours[i] * best) - 1.0;
+    const double change = amplitudes[i] / followed.at(values[i]) - 1.0;
     const bool is_same = i == middle ? std::abs(change) < same : change > -nearly;
     if (!is_same || !(amplitudes[i] < jumped * amplitudes[middle])) return false;
   }
   return true;
 }
 
-/// log A over log p: the line that falls to the best preload and the one that rises from it, each
+/// log A over log p: the line that falls to the best value and the one that rises from it, each
 /// raised by an effect of its own.
 struct TwoSides {
   double falls, rises;               ///< slopes
   double raised_left, raised_right;  ///< log(1 + e)
+  double lowest, highest;            ///< log of the neighbours over the best value
 
-  TwoSides(const Values& amplitudes, const Values& effect)
-      : falls(slope_to(amplitudes, 0)),
-        rises(slope_to(amplitudes, neighbours.size() - 1)),
+  TwoSides(const ValuesAboutBest& values, const Values& amplitudes, const Values& effect)
+      : falls(slope_to(values, amplitudes, 0)),
+        rises(slope_to(values, amplitudes, n_about - 1)),
         raised_left(std::log1p(std::max(effect.front(), -0.99))),
-        raised_right(std::log1p(std::max(effect.back(), -0.99))) {}
+        raised_right(std::log1p(std::max(effect.back(), -0.99))),
+        lowest(std::log(values.front() / values[middle])),
+        highest(std::log(values.back() / values[middle])) {}
 
   [[nodiscard]] double turn() const { return rises - falls; }
 
  private:
-  static double slope_to(const Values& amplitudes, std::size_t i) {
-    return std::log(amplitudes[i] / amplitudes[middle]) / std::log(neighbours[i]);
+  static double slope_to(const ValuesAboutBest& values, const Values& amplitudes, std::size_t i) {
+    return std::log(amplitudes[i] / amplitudes[middle]) / std::log(values[i] / values[middle]);
   }
 };
 
-/// Where the lowest peak goes, over the best preload, less 1.
+/// Where the lowest peak goes, over the best value, less 1.
 double shift(const TwoSides& sides) {
-  const double farthest = std::log(neighbours.back());
-  if (!(sides.turn() > 0.0)) return std::expm1(farthest);
+  if (!(sides.turn() > 0.0)) return std::expm1(sides.highest);
   const double way = (sides.raised_left - sides.raised_right) / sides.turn();
-  return std::expm1(std::clamp(way, -farthest, farthest));
+  return std::expm1(std::clamp(way, sides.lowest, sides.highest));
 }
 
 /// What both peaks are where they cross, over what they were, less 1.
@@ -182,8 +184,23 @@ std::optional<double> frequency_of_crossing(const solver::Optimum& optimum) {
   return std::nullopt;
 }
 
+std::optional<ValuesAboutBest> values_about(double best,
+                                            const std::optional<std::array<double, 2>>& range) {
+  constexpr double closest = 1e-3;  // relative: nearer ones tell rounding, not a slope
+  if (!(best > 0.0)) return std::nullopt;
+  ValuesAboutBest values{0.84 * best, best, 1.19 * best};
+  if (range) {
+    values.front() = std::max(values.front(), (*range)[0]);
+    values.back() = std::min(values.back(), (*range)[1]);
+  }
+  const bool has_sides = values.front() > 0.0 && best - values.front() > closest * best &&
+                         values.back() - best > closest * best;
+  return has_sides ? std::optional(values) : std::nullopt;
+}
+
 CurveBudget budget_about_best(const std::vector<CurveBudget>& budgets,
-                              const PeaksAboutBest& amplitudes_given, std::optional<double> jump) {
+                              const ValuesAboutBest& values, const PeaksAboutBest& amplitudes_given,
+                              std::optional<double> jump) {
   const std::map<std::string, Effects> frequencies = by_source(budgets, peak_frequency_goal);
   const std::map<std::string, Effects> energies = by_source(budgets, dissipated_energy_goal);
   CurveBudget result;
@@ -207,7 +224,7 @@ CurveBudget budget_about_best(const std::vector<CurveBudget>& budgets,
     const auto add = [&](const char* goal, double effect) {
       result.rows.push_back({optimum_name, goal, source, effect, ErrorKind::solved, seconds});
     };
-    const TwoSides sides(amplitudes_given, *known);
+    const TwoSides sides(values, amplitudes_given, *known);
     add(optimum_goal, shift(sides));
     const double lowest = lowest_changed(amplitudes_given, *known);
     add(peak_amplitude_goal, jump ? further(crossing_changed(sides), lowest) : lowest);
@@ -226,35 +243,43 @@ CurveBudget budget_about_best(const std::vector<CurveBudget>& budgets,
   return result;
 }
 
-CurveBudget optimum_budget(const ReducedModel& model, const SceneDescription& scene,
-                           const RicherModels& richer, const solver::Optimum& optimum, int jobs) {
-  if (!optimum.found || !scene.response->optimum->of_preload()) return {};
-  std::vector<CurveBudget> budgets(neighbours.size());
+CurveBudget optimum_budget(const ScenesAboutBest& about, const solver::Optimum& optimum, int jobs) {
+  if (!optimum.found) return {};
+  std::vector<CurveBudget> budgets(n_about);
   Values amplitudes{};
   const auto goes_on = [](const solver::ResponsePoint&) {
     return !interrupt_requested() && !cut_short();
   };
-  const SceneDescription searched = with_harmonics_of(scene, optimum);
-  const auto curve_of = [&](std::size_t i) {
-    const CurveRequest request{optimum_name, neighbours[i] * optimum.best.parameter};
-    if (i == middle && optimum.best_curve) {
-      return checked_curve(model, searched, request, *optimum.best_curve);
-    }
-    return trace_curve(model, searched, request, goes_on);
-  };
-  in_parallel(neighbours.size(), jobs, [&](std::size_t i) {
-    if (interrupt_requested() || cut_short()) return;
-    const CurveResult curve = curve_of(i);
-    budgets[i] = error_budget(model, searched, richer, curve);
+  in_parallel(n_about, jobs, [&](std::size_t i) {
+    if (!goes_on({})) return;
+    const SceneDescription searched = with_harmonics_of(*about[i].scene, optimum);
+    const CurveRequest request{optimum_name, about[i].load};
+    const CurveResult curve =
+        i == middle && optimum.best_curve
+            ? checked_curve(*about[i].model, searched, request, *optimum.best_curve)
+            : trace_curve(*about[i].model, searched, request, goes_on);
+    budgets[i] = error_budget(*about[i].model, searched, *about[i].richer, curve);
     const solver::ResponsePoint* peak = highest_peak(curve.curve);
     if (peak != nullptr) amplitudes[i] = peak->amplitude;
   });
-  if (interrupt_requested() || cut_short()) return {};
-  if (!are_those_followed(amplitudes, optimum)) return {};
+  if (!goes_on({})) return {};
+  const ValuesAboutBest values{about[0].value, about[1].value, about[2].value};
+  if (!are_those_followed(values, amplitudes, optimum)) return {};
   const std::optional<double> other = frequency_of_crossing(optimum);
   return budget_about_best(
-      budgets, amplitudes,
+      budgets, values, amplitudes,
       other ? std::optional(*other / optimum.best.frequency - 1.0) : std::nullopt);
+}
+
+CurveBudget optimum_budget(const ReducedModel& model, const SceneDescription& scene,
+                           const RicherModels& richer, const solver::Optimum& optimum, int jobs) {
+  const auto values = values_about(optimum.best.parameter);
+  if (!optimum.found || !values) return {};
+  ScenesAboutBest about{};
+  for (std::size_t i = 0; i < n_about; ++i) {
+    about[i] = {(*values)[i], (*values)[i], &scene, &model, &richer};
+  }
+  return optimum_budget(about, optimum, jobs);
 }
 
 }  // namespace microslip::pipelines

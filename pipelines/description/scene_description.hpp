@@ -207,6 +207,7 @@ struct OptimumRequest {
   std::optional<std::array<double, 2>> range;  ///< in SI; none: between the positive preloads
   /// Under which another key is searched: preload [N], or scale; none: that of the static loads.
   std::optional<double> load;
+  std::string unit{};  ///< of the number in SI; empty: it has none, or is the preload
 
   [[nodiscard]] bool of_preload() const { return key == "preload"; }
 };

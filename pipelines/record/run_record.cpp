@@ -514,13 +514,15 @@ void RunRecord::keep_pictures(const Pictures& pictures, std::size_t curve) {
 
 void RunRecord::keep_optimum(const ReducedModel& model, const OptimumRequest& request,
                              const solver::Optimum& optimum, const CurveBudget& budget) {
-  const std::string unit = !request.of_preload() ? ""
-                           : in_newtons(model)   ? " N"
-                                                 : " times the points' rest loads";
+  const std::string unit_of_load = in_newtons(model) ? " N" : " times the points' rest loads";
+  const std::string unit = request.of_preload()   ? unit_of_load
+                           : request.unit.empty() ? ""
+                                                  : " " + request.unit;
   const std::string what =
       request.of_preload() ? "best preload"
-      : request.load       ? fmt::format("best {} under preload {:g}", request.key, *request.load)
-                           : fmt::format("best {} under the static preload", request.key);
+      : request.load
+          ? fmt::format("best {} under preload {:g}{}", request.key, *request.load, unit_of_load)
+          : fmt::format("best {} under the static preload", request.key);
   const std::string beside = budget.has_bar() ? after_bar(left_out()) : "";
   const std::string told = fmt::format("{}: {}{}", what, best_text(optimum, unit, budget), beside);
   if (optimum.found) {

@@ -58,7 +58,8 @@ OptimumSearch::OptimumSearch(const ReducedModel& model, const SceneDescription& 
     : model_(model),
       scene_(scene),
       request_(*scene.response->optimum),
-      family_(scene, request_.key, model, std::move(structure)),
+      structure_(std::move(structure)),
+      family_(scene, request_.key, model, structure_),
       // Another number may need other modes, which one thread alone may ask for.
       jobs_(request_.of_preload() ? jobs : 1),
       options_(optimum_options(scene)) {}
@@ -69,17 +70,26 @@ const ReducedModel& OptimumSearch::model_at(double value, double stiffness_facto
   return stiffness_factor == 1.0 ? model_ : family_.as_given(stiffness_factor);
 }
 
+double OptimumSearch::load_at(double value, const ReducedModel& model) const {
+  if (request_.of_preload()) return value;
+  return request_.load ? *request_.load : model.static_preload.value();
+}
+
+SearchedScene OptimumSearch::at(double value) {
+  if (request_.of_preload()) return {value, value, scene_, model_, structure_};
+  SearchedScene found{value, 0.0, family_.scene_at(value), model_at(value, 1.0),
+                      family_.structure_at(value)};
+  found.load = load_at(value, found.model);
+  return found;
+}
+
 solver::Scene OptimumSearch::scene_at(double value, const Factors& factors) {
   const bool by_keys = stiffness_place(scene_) == StiffnessPlace::keys;
   const ReducedModel& given = model_at(value, 1.0);
-  const auto load_under = [&](const ReducedModel& model) {
-    if (request_.of_preload()) return value;
-    return request_.load ? *request_.load : model.static_preload.value();
-  };
-  const double given_load = load_under(given);
+  const double given_load = load_at(value, given);
   ReducedModel model = by_keys ? model_at(value, factors.stiffness)
                                : with_point_stiffness(given, factors.stiffness, given_load);
-  const double load = with_same_gap(load_under(model), given, model);
+  const double load = with_same_gap(load_at(value, model), given, model);
   if (factors.friction != 1.0) model = with_friction(std::move(model), factors.friction);
   if (factors.n_harmonics > 0) model.effects.n_harmonics = factors.n_harmonics;
   return solver_scene(model, load);

@@ -18,6 +18,16 @@
 
 namespace microslip::pipelines {
 
+/// What a search has solved for at one value of its number.
+struct SearchedScene {
+  double value;
+  double load;  ///< preload [N], or scale
+  SceneDescription scene;
+  ReducedModel model;
+  std::shared_ptr<const SolvedStructure>
+      structure;  ///< nullptr: a kind that gives its modes itself
+};
+
 class OptimumSearch {
  public:
   /// @param model      of the scene, borrowed.
@@ -35,6 +45,8 @@ class OptimumSearch {
   /// A warning of what harmonics beyond those given do to what best() has found, and to its
   /// neighbours; empty: little, not checked, or nothing found.
   [[nodiscard]] std::string left_out(const solver::Optimum& optimum);
+  /// The scene at a value. @throws SceneError, RefusedError  as best().
+  [[nodiscard]] SearchedScene at(double value);
   /// Searched again with friction coefficient and local contact stiffness × 0.5 and × 2
   /// (contact_factors.hpp), as far as the contact has them as numbers and they are not what is
   /// searched. Friction moves the best preload: the range is widened by as much, and the entry says
@@ -58,6 +70,7 @@ class OptimumSearch {
   /// The bounds of the scene, or wider ones where the best value is known to move.
   [[nodiscard]] solver::OptimumOptions options_for(const Factors& factors) const;
   [[nodiscard]] solver::Optimum search(const Factors& factors, int jobs);
+  [[nodiscard]] double load_at(double value, const ReducedModel& model) const;
   [[nodiscard]] solver::Scene scene_at(double value, const Factors& factors);
   [[nodiscard]] std::optional<solver::RicherPeak> richer_at(double value, int highest);
   [[nodiscard]] const ReducedModel& model_at(double value, double stiffness_factor);
@@ -72,6 +85,7 @@ class OptimumSearch {
   const ReducedModel& model_;
   const SceneDescription& scene_;
   const OptimumRequest& request_;
+  std::shared_ptr<const SolvedStructure> structure_;
   std::mutex family_mutex_;
   ModelFamily family_;
   int jobs_;

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "pipelines/sections/static_section.hpp"
 #include "pipelines/text/nearest_name.hpp"
 #include "pipelines/text/units.hpp"
 
@@ -70,7 +71,9 @@ double bound_in(const SectionReader& s, const toml::node& node, const std::strin
     value = *node.value<double>();
   } else if (node.is_string()) {
     try {
-      value = to_si(*node.value<std::string>(), unit.empty() ? "1" : unit);
+      const std::string text = *node.value<std::string>();
+      // Of a rotation "50 Hz" are turns per second.
+      value = unit == "rad/s" ? rotation_speed(text) : to_si(text, unit.empty() ? "1" : unit);
     } catch (const UnitError& error) {
       s.fail("optimum_range", error.what(), &node);
     }
@@ -156,12 +159,13 @@ std::optional<OptimumRequest> read_optimum(const SectionReader& s,
     }
     return request;
   }
-  const std::string unit = unit_of(s, request.key, kind);
+  request.unit = unit_of(s, request.key, kind);
+  if (request.unit == "1") request.unit.clear();
   if (!s.given("optimum_range")) {
     s.fail("optimum_range", fmt::format("is missing: [low, high] of \"{}\"", request.key),
            s.node("optimum"));
   }
-  request.range = range_in(s, unit, false);
+  request.range = range_in(s, request.unit, false);
   request.load = load_of(s, response);
   return request;
 }

@@ -18,15 +18,45 @@
 #include "pipelines/stages/stage_seconds.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/in_parallel.hpp"
+#include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {
 namespace {
 
-CurveBudget budget_of(const Solution& solution, const solver::Optimum& best, int jobs) {
-  if (!solution.scene.accuracy.error_budget || cut_short()) return {};
-  return optimum_budget(solution.model, solution.scene,
-                        richer_models(solution.model, solution.scene, solution.structure.get()),
-                        best, jobs);
+/// Errors about the best value of another number than the preload: each of the three scenes has
+/// models of its own. No rows where a neighbour cannot be simulated.
+CurveBudget budget_of_other(OptimumSearch& search, const OptimumRequest& request,
+                            const solver::Optimum& best, int jobs) {
+  const auto values = values_about(best.best.parameter, request.range);
+  if (!best.found || !values) return {};
+  std::vector<SearchedScene> scenes;
+  std::vector<RicherModels> richer;
+  try {
+    for (const double value : *values) {
+      const SearchedScene& one = scenes.emplace_back(search.at(value));
+      richer.push_back(richer_models(one.model, one.scene, one.structure.get()));
+      if (cut_short()) return {};
+    }
+  } catch (const RefusedError&) {
+    return {};
+  } catch (const SceneError&) {
+    return {};
+  }
+  ScenesAboutBest about{};
+  for (std::size_t i = 0; i < about.size(); ++i) {
+    about[i] = {scenes[i].value, scenes[i].load, &scenes[i].scene, &scenes[i].model, &richer[i]};
+  }
+  return optimum_budget(about, best, jobs);
+}
+
+CurveBudget budget_of(const Solution& solution, OptimumSearch& search, const solver::Optimum& best,
+                      int jobs) {
+  const SceneDescription& scene = solution.scene;
+  if (!scene.accuracy.error_budget || cut_short()) return {};
+  const OptimumRequest& request = *scene.response->optimum;
+  if (!request.of_preload()) return budget_of_other(search, request, best, jobs);
+  return optimum_budget(solution.model, scene,
+                        richer_models(solution.model, scene, solution.structure.get()), best, jobs);
 }
 
 /// All of them, two at a time. @return  what each has thrown
@@ -53,7 +83,7 @@ void tell_trust(const Solution& solution, OptimumSearch& search, int jobs, bool 
                 BestValue& found) {
   std::string left_out;
   in_parallel(2, beside ? 2 : 1, [&](std::size_t i) {
-    if (i == 0) found.budget = budget_of(solution, found.optimum, jobs);
+    if (i == 0) found.budget = budget_of(solution, search, found.optimum, jobs);
     if (i == 1 && !cut_short()) left_out = search.left_out(found.optimum);
   });
   if (!left_out.empty()) found.optimum.warnings.push_back(std::move(left_out));

@@ -61,6 +61,20 @@ SolvedStructure on_larger_elements(const SceneDescription& scene, double factor,
   return solved_on(own_mesh(larger), larger);
 }
 
+const SolvedStructure& on_larger_elements(const SceneDescription& scene,
+                                          const SolvedStructure& structure, double factor,
+                                          Eigen::Index n_modes) {
+  auto& known = structure.larger->known;
+  const std::pair place{factor, n_modes};
+  const auto found = known.find(place);
+  if (found != known.end()) return found->second;
+  return known.emplace(place, on_larger_elements(scene, factor, n_modes)).first->second;
+}
+
+std::shared_ptr<LargerSolutions> no_larger_solutions() {
+  return std::make_shared<LargerSolutions>();
+}
+
 LargerElements::LargerElements(const SceneDescription& scene, const mesh::Mesh& mesh, int cores,
                                std::filesystem::path program)
     : scene_(scene) {

@@ -6,9 +6,11 @@
 
 #include <array>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "pipelines/description/scene_description.hpp"
 #include "pipelines/structure/solved_structure.hpp"
@@ -19,6 +21,16 @@ namespace microslip::pipelines {
 /// In this process. @param n_modes  however far they reach.
 [[nodiscard]] SolvedStructure on_larger_elements(const SceneDescription& scene, double factor,
                                                  Eigen::Index n_modes);
+
+/// By factor and number of modes.
+struct LargerSolutions {
+  std::map<std::pair<double, Eigen::Index>, SolvedStructure> known{};
+};
+
+/// The same, kept with the structure of the scene: who asks again does not solve again.
+[[nodiscard]] const SolvedStructure& on_larger_elements(const SceneDescription& scene,
+                                                        const SolvedStructure& structure,
+                                                        double factor, Eigen::Index n_modes);
 
 /// They are being solved beside as long as it lives, where that is allowed: by a thread that meshes
 /// (the mesher is a process already) and hands tasks to the other process.

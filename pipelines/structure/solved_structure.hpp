@@ -12,12 +12,18 @@
 namespace microslip::pipelines {
 
 struct CoarserMeshes;
+struct LargerSolutions;
+
+/// None solved yet.
+[[nodiscard]] std::shared_ptr<LargerSolutions> no_larger_solutions();
 
 struct SolvedStructure {
   mesh::Mesh mesh;
   StructureModes modes;
   /// Those that the modes are extrapolated from (extrapolated_modes.hpp); nullptr: they are not.
   std::shared_ptr<const CoarserMeshes> coarser{};
+  /// Its like on larger elements, as far as somebody has asked for them (larger_elements.hpp).
+  std::shared_ptr<LargerSolutions> larger = no_larger_solutions();
 };
 
 /// Mesh and modes from the beginning. @param mesh_file  where the mesher writes.

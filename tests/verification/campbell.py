@@ -93,10 +93,10 @@ class Campbell(unittest.TestCase):
 
     def test_speeds_before_one_without_equilibrium_are_kept(self):
         inward = 'axis = { origin = [0, "300 mm", 0], direction = [0, 0, 1] }'
-        self.refused(2, ["the first 2 of 4 speeds are written", "lower the speed"], "campbell", scene("part", inward),
+        self.refused(2, ["the first 3 of 4 speeds are written", "lower the speed"], "campbell", scene("part", inward),
                      "--speeds", "0", "12000 rpm", "4", "-o", os.path.join(WORK, "part"))
         rows = table("part", "campbell", "frequencies.csv")
-        self.assertEqual([round(row["speed_rpm"]) for row in rows if row["mode"] == 1], [0, 4000])
+        self.assertEqual([round(row["speed_rpm"]) for row in rows if row["mode"] == 1], [0, 4000, 8000])
 
     def test_bad_input(self):
         no_axis = scene("no_axis", "")
