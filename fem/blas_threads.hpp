@@ -4,14 +4,23 @@
 /// nothing.
 #pragma once
 
+#include <sys/resource.h>
+
 #include <string>
 
 namespace microslip::fem {
 
-/// Gives OpenBLAS the hardware threads this process may use, shared among the ranks on this
-/// machine. A positive OPENBLAS_NUM_THREADS or OMP_NUM_THREADS of the user is left in force.
+/// Gives OpenBLAS two threads, one of several ranks and one where address space is scarce, whatever
+/// the machine has and the environment says: with another number sums have other bits.
 /// @param n_ranks_here  MPI ranks on this machine, ≥ 1.
 void set_blas_threads(int n_ranks_here);
+
+/// Too little address space (`ulimit -v`) for more than one thread of OpenBLAS.
+[[nodiscard]] inline bool has_little_address_space() {
+  constexpr rlim_t enough_for_threads = rlim_t{4} << 30U;  // bytes
+  rlimit space{};
+  return getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur < enough_for_threads;
+}
 
 /// Makes the BLAS take its working memory now. Where none is left OpenBLAS asks for it for ever:
 /// better before the address space is used up than within a factorisation.

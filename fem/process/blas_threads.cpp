@@ -22,14 +22,6 @@ Function* symbol(const char* name) {
   return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
 }
 
-bool user_chose_threads() {
-  for (const char* name : {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"}) {
-    const char* value = std::getenv(name);
-    if (value != nullptr && std::atoi(value) > 0) return true;
-  }
-  return false;
-}
-
 // File of the library that answers for dgemm, links resolved: the alternatives system hides the
 // name.
 std::string library_of_dgemm() {
@@ -50,10 +42,10 @@ std::string second_word(const std::string& text) {
 }  // namespace
 
 void set_blas_threads(int n_ranks_here) {
+  constexpr int threads_of_one = 2;  // more gain little on meshes that one process can solve
   auto* set_threads = symbol<void(int)>("openblas_set_num_threads");
-  if (set_threads == nullptr || user_chose_threads()) return;
-  // mpirun may already have bound each rank to its share of the cores.
-  set_threads(std::max(1, std::min(usable_cores(), n_cores() / std::max(1, n_ranks_here))));
+  if (set_threads == nullptr) return;
+  set_threads(n_ranks_here > 1 || has_little_address_space() ? 1 : threads_of_one);
 }
 
 void reserve_blas_memory() {

@@ -4,23 +4,23 @@
 /// program starts itself once more there, with one thread, before any library is initialised.
 
 #include <alloca.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <array>
 #include <cstddef>
 #include <string_view>
 
+#include "fem/blas_threads.hpp"
+
+namespace microslip {
 namespace {
 
 constexpr std::string_view variable = "OPENBLAS_NUM_THREADS=";
 constinit std::array one_thread = std::to_array("OPENBLAS_NUM_THREADS=1");
-constexpr rlim_t enough_for_threads = rlim_t{4} << 30U;  // bytes
 
 /// Returns where there is nothing to do, or it cannot be done.
 void start_with_one_thread(int /*argc*/, char** arguments, char** environment) {
-  rlimit space{};
-  if (getrlimit(RLIMIT_AS, &space) != 0 || space.rlim_cur >= enough_for_threads) return;
+  if (!fem::has_little_address_space()) return;
   std::size_t n = 0;
   while (environment[n] != nullptr) ++n;
   // Neither malloc nor setenv: no library has been initialised yet.
@@ -41,3 +41,4 @@ void start_with_one_thread(int /*argc*/, char** arguments, char** environment) {
   gnu::used]] void (*const before_libraries)(int, char**, char**) = start_with_one_thread;
 
 }  // namespace
+}  // namespace microslip

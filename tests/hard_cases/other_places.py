@@ -176,6 +176,27 @@ class Places:
                 shutil.rmtree(run, ignore_errors=True)
             shutil.rmtree(reference_run)
 
+    def threads(self):
+        """Factors of a blade have blocks that OpenBLAS cuts among its threads."""
+        blade = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "share", "scenes", "blade_to_ground.toml")
+        command = ["modes", blade, "--set", 'model.element_size="25 mm"', "-q", "-o"]
+        free = {key: value for key, value in without_plots().items() if key != "OPENBLAS_NUM_THREADS"}
+        kinds = {
+            "as it is": {"environment": free},
+            "OMP_NUM_THREADS 1": {"environment": {**free, "OMP_NUM_THREADS": "1"}},
+            "OMP_NUM_THREADS 2": {"environment": {**free, "OMP_NUM_THREADS": "2"}},
+            "OPENBLAS_NUM_THREADS 3": {"environment": {**free, "OPENBLAS_NUM_THREADS": "3"}},
+            "one core": {"environment": free, "prefix": ("taskset", "-c", str(min(os.sched_getaffinity(0))))},
+        }
+        first = None
+        for name, how in kinds.items():
+            run = os.path.join(self.work, "threads")
+            code, words = self.call([*command, run], **how)
+            found = [read(os.path.join(run, file)) for file in ("modes.csv", "model.h5")] if code == 0 else words[:300]
+            first = first or found
+            self.hold(f"modes of a blade, {name}", "" if code == 0 and found == first else f"exit code {code}, or other bits")
+            shutil.rmtree(run, ignore_errors=True)
+
     # ---- row 64
 
     def names(self):
@@ -293,6 +314,7 @@ def read(path):
 def main(program, work):
     places = Places(program, work)
     places.machines()
+    places.threads()
     places.names()
     places.meshes()
     places.long_and_looping()
