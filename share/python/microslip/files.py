@@ -9,7 +9,7 @@ import json
 import math
 import os
 import re
-from typing import Any, Iterator, Optional, Sequence
+from typing import Any, Iterator, Mapping, Optional, Sequence
 
 import numpy as np
 
@@ -58,6 +58,8 @@ def read_summary(path: str) -> dict[str, Any]:
         if not isinstance(curve, dict) or not {"name", "points", "complete"} <= curve.keys():
             raise RunError(f"{shown(path)}: curves[{i}] lacks its name, points or complete: {AGAIN}")
         peak = curve.get("peak")
+        if not has_numbers(peak, "frequency_Hz", "amplitude_m"):
+            peak = curve["peak"] = None
         curve["largest"] = peak
         if peak and peak.get("at") == "range_end":  # a peak is one that was solved for
             curve["peak"] = None
@@ -65,7 +67,25 @@ def read_summary(path: str) -> dict[str, Any]:
     if optimum:
         summary["optimum"] = {"found": True, "parameter": "preload",
                               "value": optimum.get("preload_N"), **optimum}
+        forget_what_has_no_number(summary["optimum"])
+    summary["error_budget"] = told_effects(summary)
     return summary
+
+
+def has_numbers(entry: Any, *keys: str) -> bool:
+    return isinstance(entry, dict) and all(isinstance(entry.get(key), (int, float)) for key in keys)
+
+
+def told_effects(budget: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """Rows of an error budget that have a number: what is not finite is null in JSON, and tells no effect."""
+    return [row for row in budget.get("error_budget") or [] if has_numbers(row, "effect")]
+
+
+def forget_what_has_no_number(optimum: dict[str, Any]) -> None:
+    """A best value is one that was solved for."""
+    optimum["error_budget"] = told_effects(optimum)
+    if optimum["found"] and not has_numbers(optimum, "value", "amplitude_m", "frequency_Hz"):
+        optimum.update(found=False, message=optimum.get("message") or "its peak is not known")
 
 
 def read_table(path: str, needed: Sequence[str] = ()) -> dict[str, Any]:

@@ -71,8 +71,8 @@ def draw_bar(axes: Axes, run: Run, curve: Mapping[str, Any]) -> None:
     if not bar or not peak:
         return
     frequency, amplitude = peak["frequency_Hz"], peak["amplitude_m"] / run.size
-    up = amplitude * bar["peak_amplitude"]
-    axes.errorbar(frequency, amplitude, [[min(up, 0.9 * amplitude)], [up]], frequency * bar["peak_frequency"],
+    up = amplitude * (bar.get("peak_amplitude") or 0.0)
+    axes.errorbar(frequency, amplitude, [[min(up, 0.9 * amplitude)], [up]], frequency * (bar.get("peak_frequency") or 0.0),
                   fmt="none", ecolor=run.colour(load_of(curve)), elinewidth=0.7, capsize=1.5, alpha=0.7, zorder=3.4)
 
 

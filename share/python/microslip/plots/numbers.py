@@ -29,6 +29,11 @@ def is_number(value: Any) -> bool:
     return isinstance(value, (int, float))
 
 
+def in_unit(value: Any, size: float) -> Optional[float]:
+    """A length in a unit; None where there is none."""
+    return value / size if is_number(value) else None
+
+
 def _raised(power: int) -> str:
     return str(power).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
 

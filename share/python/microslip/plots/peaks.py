@@ -130,6 +130,6 @@ def parameter_figure(run: Run) -> Optional[Figure]:
     log_scale(column[0].yaxis)
     if optimum["found"]:
         mark_optimum(column, run, optimum, "")
-    load = optimum["preload_N"]  # None: that of the static loads
+    load = optimum.get("preload_N")  # None: that of the static loads
     column[1].set_xlabel(f"{optimum['parameter']} [SI], {'static preload' if load is None else f'preload {load:.4g} N'}")
     return finish(figure, run, column)

@@ -6,7 +6,7 @@ from html import escape
 from typing import TYPE_CHECKING, Any, Iterator, Mapping, Optional, Sequence
 
 from microslip.files import RunError
-from microslip.plots.numbers import LENGTHS, is_number, plain, with_half_width
+from microslip.plots.numbers import LENGTHS, in_unit, is_number, plain, with_half_width
 
 if TYPE_CHECKING:
     from microslip.results import Run
@@ -200,14 +200,14 @@ def told_like(bar: Mapping[str, Any], goal: str, value: Any, digits: int = 5) ->
 def bracket_row(entry: Mapping[str, Any], best: Mapping[str, Any], unit: str) -> list[str]:
     """A best value in the digits of the one with the data as given."""
     bar = best.get("bar") or {}
-    label = "as given" if entry is best else f"{entry['parameter'].replace('_', ' ')} × {plain(entry['factor'])}"
+    label = "as given" if entry is best else f"{entry['parameter'].replace('_', ' ')} × {number(entry['factor'])}"
     label += f" with {entry['harmonics']} harmonics" if entry is not best and entry.get("harmonics") else ""
     wider = entry.get("range") if entry.get("range_widened") else None
     label += f" (searched wider: {number(wider[0])} … {number(wider[1])})" if wider else ""
     objection = entry.get("objection") or "not found"
     label += "" if entry.get("found") else f" (lowest{', ' if objection == 'not found' else ': '}{objection})"
     value = " … ".join(told_like(bar, "optimum", one) for one in entry.get("flat") or [entry["value"]])
-    amplitude = told_like(bar, "peak_amplitude", entry["amplitude_m"] / LENGTH[unit])
+    amplitude = told_like(bar, "peak_amplitude", in_unit(entry["amplitude_m"], LENGTH[unit]))
     return [escape(label), value, amplitude + (" (end of the range)" if entry.get("at") == "range_end" else ""),
             told_like(bar, "peak_frequency", entry["frequency_Hz"], 6)]
 
@@ -340,7 +340,8 @@ def structure(run: Run, data: Data) -> str:
 
 def cost(run: Run, data: Data) -> str:
     stages = run.summary.get("stages") or []
-    rows = [[escape(stage["name"]), f"{stage['seconds']:.2f}", f"{stage['peak_memory_MB']:.0f}"]
+    rows = [[escape(stage["name"]), *(f"{stage[key]:.{decimals}f}" if is_number(stage[key]) else "–"
+                                      for key, decimals in (("seconds", 2), ("peak_memory_MB", 0)))]
             for stage in stages if stage["name"] != "report"]  # this page is part of it
     machine = run.summary.get("machine") or {}
     words = ", ".join(str(machine[key]) for key in ("processor", "blas") if machine.get(key))
