@@ -10,11 +10,13 @@ import unittest
 
 SOURCE = sys.argv[1]
 del sys.argv[1]
-sys.path.insert(0, os.path.join(SOURCE, "share", "python"))
+sys.path[:0] = [os.path.join(SOURCE, "share", "python"), os.path.join(SOURCE, "tests", "support")]
 sys.dont_write_bytecode = True
 
 import numpy as np
+from matplotlib import rc_context
 
+import run_files
 from microslip.plots import error_budget, run_folder, style, work_precision
 
 
@@ -67,11 +69,49 @@ class WorkPrecision(unittest.TestCase):
 
 
 class ErrorBudget(unittest.TestCase):
-    def test_what_no_curve_tells_has_no_name_and_what_is_too_small_says_so(self):
-        told = [{"harmonics": 2.0, "newton": 1e-9}, None]
-        self.assertEqual(error_budget.known_sources(told), ["harmonics", "newton"])
-        self.assertEqual(error_budget.label_of("harmonics", told), "harmonics")
-        self.assertEqual(error_budget.label_of("newton", told), "newton (below 0.0001 %)")
+    """Waterfalls of the folder that tests/support/run_files.py writes."""
+
+    def panels(self, loads, change=lambda summary: None):
+        summary = run_files.summary_of(loads)
+        change(summary)
+        with tempfile.TemporaryDirectory() as folder, rc_context(style.STYLE):
+            run_files.write_run(folder, summary)
+            figure = error_budget.error_budget_figure(run_folder.Run(folder))
+            figure.canvas.draw()
+        return [axes for axes in figure.axes if axes.axison]
+
+    def steps(self, axes):
+        """Where bars begin and end, but for the last, which is all together."""
+        return [(bar.get_x(), bar.get_x() + bar.get_width()) for bar in axes.patches]
+
+    def test_every_bar_begins_where_the_one_before_has_ended(self):
+        (axes, _) = self.panels([60])
+        *steps, whole = self.steps(axes)
+        effects = [100.0 * size for size in run_files.SIZES.values()]  # the largest first
+        np.testing.assert_allclose([end - begin for begin, end in steps], effects, rtol=1e-9, atol=1e-9)
+        np.testing.assert_allclose([begin for begin, _ in steps[1:]], [end for _, end in steps[:-1]])
+        np.testing.assert_allclose(whole, (-sum(map(abs, effects)), sum(map(abs, effects))), rtol=1e-9)
+        self.assertEqual([label.get_text() for label in axes.get_yticklabels()],
+                         [source.replace("_", " ") for source in run_files.SIZES] + ["all together"])
+        self.assertEqual(axes.get_xscale(), "linear")
+
+    def test_of_many_curves_the_least_certain_have_a_panel(self):
+        panels = self.panels(["free", -2000, -500, 60, 100, 150, 300, 500, 1000, 3000, "stuck"])
+        self.assertEqual([axes.get_title(loc="left") for axes in panels], ["300 N", "500 N", "1000 N", "3000 N", "stuck", "best value"])
+
+    def test_names_and_numbers_do_not_overlap(self):
+        for loads in ([60], [60, 100, 150], ["free", -500, 60, 100, 150, 300, "stuck"]):
+            panels = self.panels(loads)
+            boxes = [text.get_window_extent() for axes in panels for text in (*axes.texts, *axes.get_yticklabels())]
+            for i, box in enumerate(boxes):
+                self.assertFalse([other for other in boxes[i + 1:] if box.overlaps(other)], loads)
+
+    def test_a_source_that_is_not_known_is_named(self):
+        (axes, _) = self.panels([60], lambda summary: summary["curves"][0]["bar"]["not_known"].append("basis_degree"))
+        self.assertEqual(axes.get_yticklabels()[-1].get_text(), "basis degree")
+        self.assertEqual(axes.texts[-1].get_text(), "not known")
+        (axes, _) = self.panels([60], lambda summary: summary["curves"][0].update(bar=None))
+        self.assertEqual(len(axes.patches), len(run_files.SIZES))  # no sum of what is not known
 
 
 class Colours(unittest.TestCase):

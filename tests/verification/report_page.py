@@ -23,7 +23,7 @@ from microslip.plots.figures import OF_A_RUN
 from microslip.plots.style import STYLE
 from microslip.report.page import page
 from microslip.results import Run, RunWarning
-from run_folder import summary_of, write_run, write_summary
+from run_files import summary_of, write_run, write_summary
 
 
 class Case(unittest.TestCase):

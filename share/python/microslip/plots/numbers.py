@@ -66,3 +66,10 @@ def with_half_width(value: float, bar: Optional[float], digits: int = 5) -> str:
         return " ± ".join(_rounded(number, decimals) for number in (value, half_width)).replace("-", "−")
     both = " ± ".join(_rounded(number / 10.0**size, decimals + size) for number in (value, half_width)).replace("-", "−")
     return f"({both})·10{_raised(size)}"
+
+
+def signed_percent(share: float) -> str:
+    """A relative effect to two digits: +0.12 %, −13 %; < 0.001 % where it is less."""
+    if abs(share) < 1e-5:
+        return "< 0.001 %"
+    return f"{'−' if share < 0 else '+'}{plain(float(f'{abs(100.0 * share):.2g}'))} %"
