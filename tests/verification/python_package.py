@@ -481,7 +481,7 @@ class Page(Case):
         self.assertRegex(shown, r"^preload_\d+_peak, [\d.]+ Hz, state; θ = \d+°: ")
 
     def test_bars_of_one_budget_start_at_one_place(self):
-        text = self.page(self.run_.folder)
+        text = self.page(self.run_.folder).replace("<details>", "<details open>")
         starts = ("Math.max(...[...document.querySelectorAll('.budget')].map(b => new Set([...b.querySelectorAll('.bar i')]"
                   ".map(bar => Math.round(bar.getBoundingClientRect().left))).size))")
         self.assertGreater(text.count("<div class=bar>"), 3)
@@ -508,7 +508,7 @@ class Page(Case):
         text = self.page(self.run_.folder)
         beyond = "(t => t.scrollWidth - t.clientWidth)(document.querySelector('.effects'))"
         self.assertEqual(self.measured(text, beyond, 420), "0")  # [px]
-        height = "document.querySelector('details').offsetHeight"
+        height = "document.querySelector('#what-was-asked details').offsetHeight"
         on_paper = text.replace("@media print", "@media screen")
         styles = ("(s => [s(document.querySelector('.bar i')).printColorAdjust, s(document.querySelector('.effects tbody tr')).breakInside,"
                   "s(document.querySelector('.effects thead')).display, s(document.querySelector('.effects')).overflowX].join())(getComputedStyle)")

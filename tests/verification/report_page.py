@@ -23,7 +23,7 @@ from microslip.plots.figures import OF_A_RUN
 from microslip.plots.style import STYLE
 from microslip.report.page import page
 from microslip.results import Run, RunWarning
-from run_files import summary_of, write_run, write_summary
+from run_files import SIZES, summary_of, write_run, write_summary
 
 
 class Case(unittest.TestCase):
@@ -82,6 +82,38 @@ class NotKnown(Case):
             changed = without(changed, path)
         for path in (("optimum", "amplitude_m"), ("optimum", "bar")):
             self.assertTrue(all(self.figures(without(changed, path))[i] for i in (0, 2, 3)))
+
+
+def tables_in(text):
+    """Tables of sources by what stands above them, as lists of cells without tags."""
+    parts = re.findall(r"<details[^>]*><summary>([^<]*?)[:,][^<]*</summary><div class=\"wide sources\">(.*?)</div>", text, re.S)
+    return {name: [[re.sub("<.*?>", "", cell) for cell in re.findall(r"<t[hd].*?>(.*?)</t[hd]>", row)]
+                   for row in re.findall("<tr>(.*?)</tr>", table)] for name, table in parts}
+
+
+class Sources(Case):
+    def test_every_source_has_a_row_with_all_that_is_told_of_it(self):
+        tables = tables_in(self.page())
+        self.assertEqual(list(tables), ["free", "−500 N (gap 8.4 µm)", "60 N", "100 N", "stuck", "best value"])
+        head, *rows = tables["60 N"]
+        self.assertEqual(head, ["source", "peak amplitude", "peak frequency", "dissipated energy", "kind", "seconds", "gain [%/s]"])
+        self.assertEqual([row[0] for row in rows], [source.replace("_", " ") for source in SIZES] + ["all together"])
+        self.assertEqual(rows[0], ["harmonics", "−24 %", "+2.4 %", "+36 %", "solved", "0.02", "1200"])
+        self.assertEqual(rows[-2], ["newton", "< 0.001 %", "< 0.001 %", "< 0.001 %", "estimated", "0", "–"])
+        self.assertEqual(rows[-1], ["all together", "± 34 %", "± 3.4 %", "± 51 %", "sum of sizes", "0.1", "–"])
+        self.assertEqual(tables["best value"][0][1], "best value")
+        self.assertEqual(tables["best value"][1][1], "−29 %")
+        self.assertFalse([cell for table in tables.values() for row in table for cell in row if not cell])
+
+    def test_what_is_not_known_is_named(self):
+        self.summary["curves"][2]["bar"]["not_known"] = ["mesh"]
+        self.summary["error_budget"] = [row for row in self.summary["error_budget"] if row["source"] != "mesh"]
+        tables = tables_in(self.page())
+        self.assertIn(["mesh", "not known", "not known", "not known", "not known", "–", "–"], tables["60 N"])
+        self.assertEqual({row[3] for row in tables["free"][1:]}, {"nothing dissipated"})
+        self.summary["curves"][2]["bar"] = None
+        text = self.page()
+        self.assertIn("60 N: no bar, as harmonics are not known", text)
 
 
 if __name__ == "__main__":

@@ -6,12 +6,13 @@ from html import escape
 from typing import TYPE_CHECKING, Any, Iterator, Mapping, Optional, Sequence
 
 from microslip.files import RunError
-from microslip.plots.numbers import LENGTHS, in_unit, is_number, plain, with_half_width
+from microslip.plots.numbers import in_unit, is_number
+from microslip.report.cells import LENGTH, number, percent, preload_text, table, told_like, told_with
+from microslip.report.errors import budget
 
 if TYPE_CHECKING:
     from microslip.results import Run
 
-Row = Sequence[str]  # cells
 Data = Mapping[str, Any]  # what the script draws
 
 UNITS = {"youngs_modulus": "Pa", "density": "kg/m³", "element_size": "m", "length": "m", "area": "m²", "amplitude": "N",
@@ -26,32 +27,7 @@ FIRST = {"model": ("kind", "file", "element_size", "order", "masses", "springs")
          "excitation": ("forces",),
          "response": ("output", "frequency", "method", "harmonics", "preload", "preload_scale", "optimum",
                       "optimum_range")}
-LENGTH = dict(LENGTHS)
 LONGEST = 300  # characters of a value
-
-
-def table(head: Optional[Row], rows: Sequence[Row], right: Sequence[int] = (), kind: str = "") -> str:
-    """An HTML table of cells that are HTML already; numbers of the columns that are set right; its name in page.css."""
-    def cells(row: Row, tag: str) -> str:
-        return "".join(f'<{tag}{" class=n" if i in right else ""}>{cell}</{tag}>' for i, cell in enumerate(row))
-    top = f"<thead><tr>{cells(head, 'th')}</tr></thead>" if head else ""
-    body = "".join(f"<tr>{cells(row, 'td')}</tr>" for row in rows)
-    return f'<div class="wide {kind}"><table>{top}<tbody>{body}</tbody></table></div>'
-
-
-def number(value: Any, digits: int = 5) -> str:
-    return plain(float(f"{value:.{digits}g}")) if is_number(value) else "–"
-
-
-def told_with(bar: Mapping[str, Any], goal: str, value: Any, digits: int = 5) -> str:
-    """A value with its half width, where the bar of its goal is known."""
-    return with_half_width(value, bar.get(goal), digits) if is_number(value) else "–"
-
-
-def percent(value: Any, digits: int = 2) -> str:
-    if not is_number(value):
-        return "–"
-    return f"{number(100 * value, digits)} %" if value >= 1e-5 else "< 0.001 %"
 
 
 def value_text(value: Any, unit: str = "") -> str:
@@ -163,16 +139,6 @@ def free_peak(run: Run) -> Optional[float]:
                  if curve.get("preload_N") == "free" and curve.get("peak")), None)
 
 
-def preload_text(curve: Mapping[str, Any], unit: str = "") -> str:
-    """Force or scale; the unit stands behind a force."""
-    scale = curve.get("preload_scale")
-    value = curve.get("preload_N") if scale is None else scale
-    if not is_number(value):
-        return escape(str(value if value is not None else "–"))
-    gap = curve.get("gap_m")
-    return number(value) + (unit if scale is None else "") + (f" (gap {number(1e6 * gap, 3)} µm)" if gap else "")
-
-
 def peaks(run: Run, data: Data) -> str:
     reference, size = free_peak(run), LENGTH[data["unit"]]
     rows = []
@@ -189,12 +155,6 @@ def peaks(run: Run, data: Data) -> str:
     head = ["preload scale" if data["scaled"] else "preload [N]", "peak [Hz]", f"peak [{data['unit']}]", "peak ±",
             "against free", "folds [Hz]", "stability not judged", "state"]
     return table(head, rows, (0, 1, 2, 3, 4, 6), "peaks") if rows else ""
-
-
-def told_like(bar: Mapping[str, Any], goal: str, value: Any, digits: int = 5) -> str:
-    """A value to the digits that the bar of a goal allows, without its half width."""
-    first, _, rest = told_with(bar, goal, value, digits).partition(" ± ")
-    return first.lstrip("(") + rest.partition(")")[2]
 
 
 def bracket_row(entry: Mapping[str, Any], best: Mapping[str, Any], unit: str) -> list[str]:
@@ -269,62 +229,6 @@ def maps(run: Run, data: Data) -> str:
             '<h3>Hysteresis of the whole patch</h3><div class=loop data-chart=loop></div>'
             '<p class=note>Friction force over the mean relative displacement, both along p, at the phases of the map; the point is '
             'where the slider stands. Where the whole face moves alike, the area of the loop is the energy of a period.</p>')
-
-
-def signed(value: float) -> str:
-    return ("−" if value < 0 else "+") + number(abs(value), 2)
-
-
-def bars_of(rows: Sequence[Mapping[str, Any]]) -> str:
-    """Effects on one goal of one curve, the largest first, as bars from a hundredth of a percent."""
-    worst = max(abs(row["effect"]) for row in rows) or 1.0
-    lines = ""
-    for row in sorted(rows, key=lambda row: -abs(row["effect"])):
-        lines += (f'<div class=bar><span>{escape(row["source"].replace("_", " "))}</span>'
-                  f'<i style="--share:{abs(row["effect"]) / worst:.3f}"></i>'
-                  f'<em>{signed(100 * row["effect"])} % {escape(row.get("kind", ""))}</em></div>')
-    return lines
-
-
-def asked_accuracy(run: Run) -> str:
-    """What was asked for, what was reached and by what; empty without a tolerance."""
-    accuracy = run.summary.get("accuracy")
-    if not accuracy:
-        return ""
-    reached = accuracy.get("reached")
-    words = [f"Asked for {percent(accuracy['asked'])} of every peak",
-             f"reached {percent(reached)}" if is_number(reached) else "what is reached is not known",
-             *(f"then with {escape(step)}" for step in accuracy.get("refined") or [])]
-    return f"<p>{'; '.join(words)}.</p>"
-
-
-def energy_bars(curve: Mapping[str, Any], rows: Sequence[Mapping[str, Any]]) -> str:
-    """What the highest peak dissipates in a period, with what makes its half width."""
-    energy, bar = (curve.get("peak") or {}).get("dissipated_energy_J"), curve["bar"].get("dissipated_energy")
-    if not is_number(energy):
-        return ""
-    if not is_number(bar):
-        return "<p class=note>friction dissipates nothing at the peak</p>"
-    return f"<h3>dissipated {with_half_width(energy, bar)} J ± {percent(bar)}</h3>" + (bars_of(rows) if rows else "")
-
-
-def budget(run: Run, data: Data) -> str:
-    text = ""
-    for curve in run.summary["curves"]:
-        rows, of_energy = ([row for row in run.summary.get("error_budget") or []
-                            if (row["curve"], row["goal"]) == (curve["name"], goal) and abs(row["effect"]) >= 1e-5]
-                           for goal in ("peak_amplitude", "dissipated_energy"))
-        bar = curve.get("bar")
-        if not bar:
-            continue
-        unknown = ", ".join(bar.get("not_known") or [])
-        text += (f'<div class=budget><h3>{preload_text(curve, " N")}: '
-                 f'amplitude ± {percent(bar.get("peak_amplitude"))}, frequency ± {percent(bar.get("peak_frequency"))}</h3>'
-                 + (bars_of(rows) if rows else "<p class=note>no effect above 0.001 %</p>")
-                 + energy_bars(curve, of_energy)
-                 + (f"<p class=note>not known: {escape(unknown)}</p>" if unknown else "") + "</div>")
-    return text and (asked_accuracy(run) + "<p>What each choice of the discretisation does to the amplitude of the highest peak and to the energy it dissipates, if it were refined to "
-                     f"its end.</p><div class=budgets>{text}</div>")
 
 
 def structure(run: Run, data: Data) -> str:
