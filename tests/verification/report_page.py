@@ -20,6 +20,7 @@ from matplotlib import rc_context
 
 from microslip.plots import run_folder as plotted
 from microslip.plots.figures import OF_A_RUN
+from microslip.plots.numbers import change_in_percent, digits_told, told_like, told_with, with_half_width
 from microslip.plots.style import STYLE
 from microslip.report.page import page
 from microslip.results import Run, RunWarning
@@ -114,6 +115,72 @@ class Sources(Case):
         self.summary["curves"][2]["bar"] = None
         text = self.page()
         self.assertIn("60 N: no bar, as harmonics are not known", text)
+
+
+def rows_in(text, kind):
+    """Of the table of a kind, each cell without tags."""
+    table = re.search(rf'<div class="wide {kind}">(.*?)</div>', text, re.S)[1]
+    return [[re.sub("<.*?>", "", cell) for cell in re.findall(r"<td.*?>(.*?)</td>", row)] for row in re.findall("<tr>(.*?)</tr>", table)[1:]]
+
+
+class Digits(Case):
+    """Peaks of 304.498… Hz and more, 2.995… mm and less, with the bars that run_files.py makes of its rows."""
+
+    def test_peaks_and_folds_end_where_their_half_width_begins(self):
+        rows = {row[0]: row[1:6] for row in rows_in(self.page(), "peaks")}
+        self.assertEqual(rows["60"], ["318 ± 11", "1.0 ± 0.3", "34 %", "−70 %", "319, 317"])
+        self.assertEqual(rows["free"][:4], ["304 ± 5", "3.0 ± 0.5", "17 %", "0 %"])
+
+    def test_a_change_has_a_digit_at_least_and_no_more_than_its_half_width(self):
+        for value, width, told in ((0.953, 0.059, "−5 %"), (0.29, 0.34, "−70 %"), (0.3333, 1e-5, "−66.7 %"), (1.5, None, "+50 %"), (1.0, 0.1, "0 %")):
+            self.assertEqual(change_in_percent(value, width, 1.0, width), told)
+
+    def test_what_has_no_bar_says_so(self):
+        self.summary["curves"][2]["bar"] = None
+        text = self.page()
+        row = next(row for row in rows_in(text, "peaks") if row[0] == "60")
+        self.assertEqual(row[1:6], ["≈ 318.5", "≈ 0.998", "no bar", "−67 %", "≈ 318.8, ≈ 316.9"])
+        self.assertIn("≈: no bar is known", text)
+
+    def test_the_best_value_has_the_same_digits_in_all_its_rows(self):
+        text = self.page()
+        self.assertIn("<b>250 ± 100 N</b>, peak 0.52 ± 0.11 mm at 333 ± 7 Hz", text)
+        values = [cells for cells in re.findall(r"<td>(?:as given|\w+ \w+ × [\d.]+).*?</td>(.*?)</tr>", text)]
+        numbers = [re.findall(r">([^<]+)<", cells) for cells in values]
+        self.assertEqual(numbers[0], ["250", "0.52", "333"])
+        self.assertEqual({tuple(len(cell) for cell in row) for row in numbers}, {(3, 4, 3)})
+
+    def test_natural_frequencies_have_what_the_mesh_leaves(self):
+        frequency = r"<td class=n>1</td><td class=n>(.*?)</td>"
+        largest = 0.1 * SIZES["mesh"] * 3.0  # of the last curve
+        self.assertEqual(re.search(frequency, self.page())[1], with_half_width(304.4997813889993, largest).split(" ")[0])
+        self.summary["error_budget"] = []
+        self.assertEqual(re.search(frequency, self.page())[1], "304.5")
+
+    def test_no_number_has_more_than_eight_digits(self):
+        for width in (1e-9, 0.0):
+            for curve in self.summary["curves"]:
+                curve["bar"] = {"peak_amplitude": width, "peak_frequency": width, "not_known": []}
+            for row in rows_in(self.page(), "peaks"):
+                for number in re.findall(r"[\d.]+", "; ".join(row[1:])):
+                    self.assertLessEqual(len(number.replace(".", "").lstrip("0")), 8, row)
+
+    def test_what_a_bar_does_not_count_allows_three_digits(self):
+        bar = {"peak_frequency": 1e-6, "not_known": ["mesh"]}
+        self.assertEqual(told_with(bar, "peak_frequency", 318.498409), "318")
+        self.assertEqual(told_with({**bar, "not_known": []}, "peak_frequency", 318.498409), "318.4984 ± 0.0003")
+        self.assertEqual(told_with(bar, "peak_frequency", None), "–")
+
+    def test_the_script_has_the_digits_of_the_tables(self):
+        for bar in ({"peak_amplitude": 0.34}, {"peak_amplitude": 1e-4}, {"peak_amplitude": 1e-9}, {"peak_amplitude": 0.0}, {},
+                    {"peak_amplitude": 20.0}, {"peak_amplitude": 1e-5, "not_known": ["mesh"]}):
+            told = told_like(bar, "peak_amplitude", 0.51757218)
+            digits = len(re.sub(r"\D", "", told).lstrip("0"))
+            self.assertEqual(digits_told(bar, "peak_amplitude", 0.51757218), digits, (bar, told))
+
+    def test_the_plot_of_peaks_tells_the_best_value_as_the_page_does(self):
+        titles = [axes.get_title(loc="right") for axes in self.figures(self.summary)[0].axes]
+        self.assertIn("best preload 250 ± 100 N: 0.52 ± 0.11 mm at 333 ± 7 Hz", titles)
 
 
 if __name__ == "__main__":

@@ -34,9 +34,9 @@ def inputs_of_run(run: Run) -> bytes:
     return digest(json.dumps(seen(run.summary)).encode(), names.encode(), *map(bytes_in, tables))
 
 
-def inputs_of_map(run: Run, path: str, title: str) -> bytes:
+def inputs_of_map(run: Run, path: str, title: object) -> bytes:
     """Of the figure of one map: its file, where its points lie, what stands above."""
-    return digest(bytes_in(path), bytes_in(os.path.join(run.folder, "model.h5")), title.encode())
+    return digest(bytes_in(path), bytes_in(os.path.join(run.folder, "model.h5")), repr(title).encode())
 
 
 class KeptFigures:

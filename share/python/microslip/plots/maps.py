@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Callable, Iterator
+from typing import TYPE_CHECKING, Any, Callable, Dict, Iterator, Mapping, NamedTuple, Optional
 
 import numpy as np
 
 from microslip.plots.contact_map import ContactMap
 from microslip.plots.line_figure import line_figure
 from microslip.plots.line_map import LineMap, line_positions
-from microslip.plots.numbers import length_unit
+from microslip.plots.numbers import length_unit, told_like
 from microslip.plots.output import save
 from microslip.plots.patch_map import patch_figure, row_figure
 from microslip.plots.run_folder import Run, load_of
@@ -20,20 +20,37 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
+Bar = Dict[str, Any]  # that of a curve in summary.json
+
+
 def place_in_words(suffix: str) -> str:
     """peak, fold 2, solution 1: the frequency of "315Hz_1" stands in the title anyway."""
     first, _, rest = suffix.partition("_")
     return f"solution {rest}" if first.endswith("Hz") else suffix.replace("_", " ")
 
 
-def maps_of(run: Run) -> Iterator[tuple[str, str]]:
-    """(file, title) of every map the summary names."""
+class Heading(NamedTuple):
+    """What stands above a map; the frequency of the map has a bar where it was solved for."""
+
+    text: str
+    amplitude_bar: Bar
+    frequency_bar: Optional[Bar]
+
+
+def heading(text: str, place: str, curve: Mapping[str, Any]) -> Heading:
+    known = curve.get("bar") or {}
+    bar = {goal: known.get(goal) for goal in ("peak_amplitude", "peak_frequency", "not_known")}
+    return Heading(text, bar, bar if place.startswith(("peak", "fold")) else None)
+
+
+def maps_of(run: Run) -> Iterator[tuple[str, Heading]]:
+    """(file, heading) of every map the summary names."""
     for curve, _ in run.curves:
         for name in curve.get("maps", []):
             place = place_in_words(name[len(curve["name"]):].strip("_"))
             word = "preload scale" if run.scaled else "preload"
-            title = f"{run.title}: {word} {run.label(load_of(curve))}, {place}"
-            yield os.path.join(run.folder, "maps", name + ".h5"), title
+            text = f"{run.title}: {word} {run.label(load_of(curve))}, {place}"
+            yield os.path.join(run.folder, "maps", name + ".h5"), heading(text, place, curve)
 
 
 def figure_of(contact: ContactMap, run_folder: str, name: str) -> Figure:
@@ -49,13 +66,16 @@ def name_of(path: str) -> str:
     return os.path.splitext(os.path.basename(path))[0]
 
 
-def map_figure(path: str, title: str) -> Figure:
+def map_figure(path: str, title: Heading) -> Figure:
     """Of one file maps/NAME.h5."""
     contact = ContactMap(path)
     figure = figure_of(contact, os.path.dirname(os.path.dirname(path)), name_of(path))
     unit, size = length_unit(contact.amplitude)
     stability = {1: ", stable", 0: ", unstable"}.get(contact.stable, ", stability not judged")
-    figure_title(figure, f"{title}, {contact.frequency:.6g} Hz, {contact.amplitude / size:.4g} {unit}{stability}")
+    asked, solved = f"{contact.frequency:.6g}", title.frequency_bar
+    frequency = asked if solved is None else told_like(solved, "peak_frequency", float(contact.frequency))
+    amplitude = told_like(title.amplitude_bar, "peak_amplitude", float(contact.amplitude) / size)
+    figure_title(figure, f"{title.text}, {frequency} Hz, {amplitude} {unit}{stability}")
     return figure
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Mapping, Optional, Sequence
 import numpy as np
 
 from microslip.files import trace_in
-from microslip.plots.numbers import is_number, with_half_width
+from microslip.plots.numbers import is_number, told_with
 from microslip.plots.run_folder import Run, load_of
 from microslip.plots.style import ACCENT, FREE, STUCK, figure_title, light_grid, log_scale, subplots
 
@@ -75,7 +75,7 @@ def mark_optimum(column: Sequence[Axes], run: Run, optimum: Mapping[str, Any], w
     star(column[1], value, optimum["frequency_Hz"])
     bar = optimum.get("bar") or {}
     value_text, amplitude_text, frequency_text = (
-        with_half_width(number, bar.get(goal)) for number, goal in
+        told_with(bar, goal, number) for number, goal in
         ((value, "optimum"), (amplitude, "peak_amplitude"), (optimum["frequency_Hz"], "peak_frequency")))
     column[0].set_title(f"best {what}{value_text}{unit}: {amplitude_text} {run.unit} at {frequency_text} Hz",
                         loc="right", color=ACCENT, fontsize=8)

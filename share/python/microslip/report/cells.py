@@ -5,7 +5,7 @@ from __future__ import annotations
 from html import escape
 from typing import Any, Mapping, Optional, Sequence
 
-from microslip.plots.numbers import LENGTHS, is_number, plain, with_half_width
+from microslip.plots.numbers import LENGTHS, is_number, plain
 
 Row = Sequence[str]  # cells
 LENGTH = dict(LENGTHS)
@@ -24,21 +24,10 @@ def number(value: Any, digits: int = 5) -> str:
     return plain(float(f"{value:.{digits}g}")) if is_number(value) else "–"
 
 
-def told_with(bar: Mapping[str, Any], goal: str, value: Any, digits: int = 5) -> str:
-    """A value with its half width, where the bar of its goal is known."""
-    return with_half_width(value, bar.get(goal), digits) if is_number(value) else "–"
-
-
 def percent(value: Any, digits: int = 2) -> str:
     if not is_number(value):
         return "–"
     return f"{number(100 * value, digits)} %" if value >= 1e-5 else "< 0.001 %"
-
-
-def told_like(bar: Mapping[str, Any], goal: str, value: Any, digits: int = 5) -> str:
-    """A value to the digits that the bar of a goal allows, without its half width."""
-    first, _, rest = told_with(bar, goal, value, digits).partition(" ± ")
-    return first.lstrip("(") + rest.partition(")")[2]
 
 
 def preload_text(curve: Mapping[str, Any], unit: str = "") -> str:

@@ -14,7 +14,7 @@ from microslip.branch import AMPLITUDE, PHASE, cubics
 from microslip.boundaries import GUARDS, Vertices, instant_boundaries, parted_cells, period_boundaries, starts_of_states, triangles_of
 from microslip.files import RunError, trace_in
 from microslip.kept import Kept, bytes_in, digest, sources_in
-from microslip.plots.numbers import is_number, length_unit, plain
+from microslip.plots.numbers import digits_told, is_number, length_unit, plain
 from microslip.states import STATES
 
 if TYPE_CHECKING:
@@ -103,6 +103,14 @@ def between(curve: Curve, size: float) -> dict[str, list[Optional[list[Optional[
     return ways
 
 
+def digits_of(bar: Mapping[str, Any], peak: Mapping[str, Any], size: float) -> dict[str, int]:
+    """Significant digits by what the script tells: those of the highest peak, as the tables have it."""
+    told = {"amplitude": ("peak_amplitude", (peak.get("amplitude_m") or 0.0) / size),
+            "frequency": ("peak_frequency", peak.get("frequency_Hz") or 0.0),
+            "dissipated_energy": ("dissipated_energy", peak.get("dissipated_energy_J") or 0.0)}
+    return {name: digits_told(bar, goal, value) for name, (goal, value) in told.items()}
+
+
 def curve_entry(curve: Curve, free: Optional[Curve], unit: tuple[str, float], shade: str, damage: list[str]) -> Entry:
     """One curve as the script draws it."""
     name, size = unit
@@ -111,6 +119,7 @@ def curve_entry(curve: Curve, free: Optional[Curve], unit: tuple[str, float], sh
              "complete": curve.summary["complete"], "frequency": numbers(curve["frequency_Hz"], 9),
              "stable": [int(value) for value in curve["stable"]], "mark": curve["mark"],
              "values": columns_of(curve, free, size, damage), "between": between(curve, size)}
+    entry["digits"] = digits_of(bar or {}, curve.largest or {}, size)
     if bar and peak:
         entry["bar"] = {"frequency": peak["frequency_Hz"], "amplitude": peak["amplitude_m"] / size,
                         "of_frequency": bar.get("peak_frequency") or 0.0, "of_amplitude": bar.get("peak_amplitude") or 0.0}
@@ -153,17 +162,19 @@ def trace_entry(run: Run, size: float, damage: list[str]) -> Optional[Entry]:
     except RunError as error:
         damage.append(str(error))
         return None
-    best = None
+    best, bar = None, optimum.get("bar") or {}
     if optimum.get("found"):
         best = {"value": optimum["value"], "frequency": optimum["frequency_Hz"], "amplitude": optimum["amplitude_m"] / size}
     return {"parameter": parameter, "value": numbers(trace[:, 0]), "frequency": numbers(trace[:, 1], 9),
-            "amplitude": numbers(trace[:, 2] / size), "best": best}
+            "amplitude": numbers(trace[:, 2] / size), "best": best,
+            "digits": {**digits_of(bar, optimum, size), "value": digits_told(bar, "optimum", optimum.get("value") or 0.0)}}
 
 
 def peak_entries(curves: Sequence[Curve], shades: Mapping[str, str], size: float) -> list[Entry]:
     """The highest peak of every curve."""
     return [{"label": label_of(curve), "colour": shades[curve.name], "frequency": curve.peak["frequency_Hz"],
-             "preload": curve.preload if is_number(curve.preload) else None, "gap": gap_of(curve), "amplitude": curve.peak["amplitude_m"] / size}
+             "preload": curve.preload if is_number(curve.preload) else None, "gap": gap_of(curve), "amplitude": curve.peak["amplitude_m"] / size,
+             "digits": digits_of(curve.summary.get("bar") or {}, curve.peak, size)}
             for curve in curves if curve.peak]
 
 
@@ -274,6 +285,13 @@ def kept_entry(contact: ContactMap, path: str, kept: Kept, drawn_by: bytes) -> E
     return entry
 
 
+def map_digits(run: Run, name: str, frequency: float) -> int:
+    """Of the frequency of a map: it is given, but at a peak or a fold."""
+    curve = next(curve for curve in run.summary["curves"] if name in (curve.get("maps") or []))
+    is_given = not name[len(curve["name"]):].startswith(("_peak", "_fold"))
+    return 6 if is_given else digits_told(curve.get("bar") or {}, "peak_frequency", frequency)
+
+
 def read_maps(run: Run, damage: list[str], cache: Optional[str]) -> list[Entry]:
     """The maps a page has room for."""
     maps, room = [], MOST_BYTES
@@ -286,7 +304,8 @@ def read_maps(run: Run, damage: list[str], cache: Optional[str]) -> list[Entry]:
                 damage.append(f"map {name} is left out of this page, which would grow too large; plots/map_{name}.png "
                               "shows it")
                 continue
-            maps.append(kept_entry(contact, os.path.join(run.folder, "maps", name + ".h5"), kept, drawn_by))
+            entry = kept_entry(contact, os.path.join(run.folder, "maps", name + ".h5"), kept, drawn_by)
+            maps.append({**entry, "frequency_digits": map_digits(run, name, entry["frequency"])})
             room -= size
         except (RunError, ImportError, KeyError) as error:
             damage.append(f"map {name}: {error}")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from html import escape
 from typing import TYPE_CHECKING, Any, Mapping, NamedTuple, Sequence
 
-from microslip.plots.numbers import is_number, signed_percent, with_half_width
+from microslip.plots.numbers import is_number, signed_percent, told_with
 from microslip.report.cells import number, percent, preload_text, table
 
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ def energy_bars(curve: Mapping[str, Any], rows: Sequence[Mapping[str, Any]]) -> 
         return ""
     if not is_number(bar):
         return "<p class=note>friction dissipates nothing at the peak</p>"
-    return f"<h3>dissipated {with_half_width(energy, bar)} J (± {percent(bar)})</h3>" + (bars_of(rows) if rows else "")
+    return f"<h3>dissipated {told_with(curve['bar'], 'dissipated_energy', energy)} J (± {percent(bar)})</h3>" + (bars_of(rows) if rows else "")
 
 
 class Budget(NamedTuple):

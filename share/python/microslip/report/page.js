@@ -22,9 +22,10 @@ function curveSeries(curve, quantity) {
   return { label: curve.label, colour: curve.colour, width: curve.limit ? 2.6 : 1.7, x: curve.frequency, y: values, mark,
     kind: curve.stable, bar: quantity.key === "amplitude" ? curve.bar : null,
     between: curve.between[quantity.key],
-    tip: (i) => [curve.label + (curve.mark[i] ? `: ${curve.mark[i]}` : ""), `${told(curve.frequency[i], 7)} Hz`,
+    // A frequency is given, but where it was solved for.
+    tip: (i) => [curve.label + (curve.mark[i] ? `: ${curve.mark[i]}` : ""), `${told(curve.frequency[i], curve.mark[i] ? curve.digits.frequency : 7)} Hz`,
       ...data.quantities.filter((q) => curve.values[q.key] && curve.values[q.key][i] !== null)
-        .map((q) => `${q.short}: ${told(curve.values[q.key][i])}`), state[curve.stable[i]]] };
+        .map((q) => `${q.short}: ${told(curve.values[q.key][i], curve.digits[q.key] || 3)}`), state[curve.stable[i]]] };
 }
 
 function showCurves() {
@@ -46,11 +47,13 @@ function showCurves() {
 }
 
 // From the highest peak to where more harmonics put it.
-function richerSeries({ label, colour, richer }) {
+function richerSeries({ label, colour, richer, digits }) {
   return { label, colour, width: 1, x: richer.frequency, y: richer.amplitude, kind: [-1, -1], mark: ["", "richer"],
-    tip: () => [`${label}: the peak with ${richer.harmonics} harmonics`, `${told(richer.frequency[1], 7)} Hz`,
-      `${told(richer.amplitude[1])} ${data.unit}`] };
+    tip: () => [`${label}: the peak with ${richer.harmonics} harmonics`, `${told(richer.frequency[1], digits.frequency)} Hz`,
+      `${told(richer.amplitude[1], digits.amplitude)} ${data.unit}`] };
 }
+
+const placeOf = (amplitude, frequency, digits) => `${told(amplitude, digits.amplitude)} ${data.unit} at ${told(frequency, digits.frequency)} Hz`;
 
 // Every peak of a curve as an entry of the list; of a curve without one its highest point. Gives [curve, point] of each.
 function offerPeaks(list, curve) {
@@ -58,7 +61,7 @@ function offerPeaks(list, curve) {
   const peaks = [...high.keys()].filter((i) => curve.mark[i] === "peak");
   if (!peaks.length && high.length) peaks.push(high.indexOf(high.reduce((a, b) => Math.max(a, b))));
   group.label = curve.label;
-  peaks.forEach((i) => part("option", group, `${curve.label}: ${told(high[i], 3)} ${data.unit} at ${told(curve.frequency[i])} Hz`));
+  peaks.forEach((i) => part("option", group, `${curve.label}: ${placeOf(high[i], curve.frequency[i], curve.digits)}`));
   return peaks.map((i) => [curve, i]);
 }
 
@@ -82,7 +85,7 @@ const gapsKnown = () => opens().every((p) => p.gap !== null);
 function peakSeries(what, sign) {
   const family = sign > 0 ? data.peaks.filter((p) => p.preload !== null && p.preload > 0) : opens();
   const place = (p) => (sign < 0 && gapsKnown() ? p.gap : sign * p.preload);
-  const at = (p) => [`${p.label}: ${told(p.amplitude)} ${data.unit} at ${told(p.frequency, 7)} Hz`];
+  const at = (p) => [`${p.label}: ${placeOf(p.amplitude, p.frequency, p.digits)}`];
   const points = family.map((p) => ({ label: p.label, colour: p.colour, x: [place(p)], y: [p[what]], kind: [1],
     mark: ["dot"], tip: () => at(p) }));
   const trace = sign > 0 && data.trace && data.trace.parameter === "preload" ? [traceSeries(what)] : [];
@@ -96,14 +99,14 @@ function peakSeries(what, sign) {
 }
 
 function traceSeries(what) {
-  const t = data.trace, at = (i) => [`search: ${told(t.value[i])}`, `${told(t.amplitude[i])} ${data.unit} at ${told(t.frequency[i], 7)} Hz`];
+  const t = data.trace, at = (i) => [`search: ${told(t.value[i])}`, placeOf(t.amplitude[i], t.frequency[i], t.digits)];
   return { label: "search", colour: "#5b6570", width: 1.2, x: t.value, y: t[what], kind: t.value.map(() => 1), mark: t.value.map(() => ""), tip: at };
 }
 
 function bestSeries(what, wanted) {
   const best = wanted && data.trace.best;
   return best ? [{ label: "best", colour: "#c1121f", x: [best.value], y: [best[what]], kind: [1], mark: ["best"],
-    tip: () => [`best: ${told(best.value)}`, `${told(best.amplitude)} ${data.unit} at ${told(best.frequency, 7)} Hz`] }] : [];
+    tip: () => [`best: ${told(best.value, data.trace.digits.value)}`, placeOf(best.amplitude, best.frequency, data.trace.digits)] }] : [];
 }
 
 function showPeaks() {
@@ -310,7 +313,7 @@ function showMaps() {
   if (!place) return;
   const tools = document.querySelector("[data-tools=maps]"), maps = data.maps.map((m) => new ContactMap(m));
   const which = part("select", tools), what = part("select", tools), slider = part("input", tools), play = part("button", tools, "play");
-  maps.forEach((m) => part("option", which, `${m.name}, ${told(m.frequency, 6)} Hz`));
+  maps.forEach((m) => part("option", which, `${m.name}, ${told(m.frequency, m.frequency_digits)} Hz`));
   slider.type = "range"; slider.min = 0; slider.value = 0; slider.setAttribute("aria-label", "phase");
   const told_ = part("p", place, undefined, "note"), canvas = part("canvas", part("div", place)), axes = part("p", place, undefined, "note");
   const key = part("div", place, undefined, "key");

@@ -6,8 +6,8 @@ from html import escape
 from typing import TYPE_CHECKING, Any, Iterator, Mapping, Optional, Sequence
 
 from microslip.files import RunError
-from microslip.plots.numbers import in_unit, is_number
-from microslip.report.cells import LENGTH, number, percent, preload_text, table, told_like, told_with
+from microslip.plots.numbers import change_in_percent, in_unit, is_number, told_like, told_with
+from microslip.report.cells import LENGTH, number, percent, preload_text, table
 from microslip.report.errors import budget
 
 if TYPE_CHECKING:
@@ -134,27 +134,45 @@ def unjudged(data: Data, name: str) -> str:
     return f"{missing} of {len(stable)}" if missing else "0"
 
 
-def free_peak(run: Run) -> Optional[float]:
-    return next((curve["peak"]["amplitude_m"] for curve in run.summary["curves"]
-                 if curve.get("preload_N") == "free" and curve.get("peak")), None)
+def free_curve(run: Run) -> Optional[Mapping[str, Any]]:
+    """That has a peak."""
+    return next((curve for curve in run.summary["curves"] if curve.get("preload_N") == "free" and curve.get("peak")), None)
+
+
+def against_free(curve: Mapping[str, Any], free: Optional[Mapping[str, Any]]) -> str:
+    peak = curve.get("largest")
+    if not free or not peak:
+        return "–"
+    widths = [(entry.get("bar") or {}).get("peak_amplitude") for entry in (curve, free)]
+    return change_in_percent(peak["amplitude_m"], widths[0], free["peak"]["amplitude_m"], widths[1])
+
+
+def width_text(curve: Mapping[str, Any]) -> str:
+    width = (curve.get("bar") or {}).get("peak_amplitude")
+    return percent(width) if is_number(width) else "no bar"
+
+
+def note_on_digits(rows: Sequence[Sequence[str]]) -> str:
+    """How numbers are rounded, and what ≈ is where it stands."""
+    unknown = any("≈" in cell for row in rows for cell in row)
+    return ("<p class=note>Digits end where the half width begins; folds have those of the peak frequency."
+            + (" ≈: no bar is known; three digits of an amplitude, four of a frequency." if unknown else "") + "</p>")
 
 
 def peaks(run: Run, data: Data) -> str:
-    reference, size = free_peak(run), LENGTH[data["unit"]]
+    free, size = free_curve(run), LENGTH[data["unit"]]
     rows = []
     for curve in run.summary["curves"]:
         peak, bar = curve.get("largest") or {}, curve.get("bar") or {}
-        amplitude = peak.get("amplitude_m")
-        share = amplitude / reference - 1 if reference and amplitude else None
         end = " (end of the range)" if peak.get("at") == "range_end" else ""
-        rows.append([preload_text(curve), told_with(bar, "peak_frequency", peak.get("frequency_Hz"), 6) + end,
-                     told_with(bar, "peak_amplitude", amplitude / size if amplitude else None, 4),
-                     percent(bar.get("peak_amplitude")), "–" if share is None else f"{100 * share:+.1f} %".replace("-", "−"),
-                     ", ".join(number(fold, 6) for fold in curve.get("folds_Hz") or []) or "–",
+        rows.append([preload_text(curve), told_with(bar, "peak_frequency", peak.get("frequency_Hz")) + end,
+                     told_with(bar, "peak_amplitude", in_unit(peak.get("amplitude_m"), size)),
+                     width_text(curve), against_free(curve, free),
+                     ", ".join(told_like(bar, "peak_frequency", fold) for fold in curve.get("folds_Hz") or []) or "–",
                      unjudged(data, curve["name"]), state_of(curve)])
     head = ["preload scale" if data["scaled"] else "preload [N]", "peak [Hz]", f"peak [{data['unit']}]", "peak ±",
             "against free", "folds [Hz]", "stability not judged", "state"]
-    return table(head, rows, (0, 1, 2, 3, 4, 6), "peaks") if rows else ""
+    return table(head, rows, (0, 1, 2, 3, 4, 6), "peaks") + note_on_digits(rows) if rows else ""
 
 
 def bracket_row(entry: Mapping[str, Any], best: Mapping[str, Any], unit: str) -> list[str]:
@@ -169,7 +187,7 @@ def bracket_row(entry: Mapping[str, Any], best: Mapping[str, Any], unit: str) ->
     value = " … ".join(told_like(bar, "optimum", one) for one in entry.get("flat") or [entry["value"]])
     amplitude = told_like(bar, "peak_amplitude", in_unit(entry["amplitude_m"], LENGTH[unit]))
     return [escape(label), value, amplitude + (" (end of the range)" if entry.get("at") == "range_end" else ""),
-            told_like(bar, "peak_frequency", entry["frequency_Hz"], 6)]
+            told_like(bar, "peak_frequency", entry["frequency_Hz"])]
 
 
 def bracket(best: Mapping[str, Any], unit: str) -> str:
@@ -196,7 +214,7 @@ def optimum(run: Run, data: Data) -> str:
     amplitude = best["amplitude_m"] / LENGTH[data["unit"]]
     return (f"<p class=best>Best {escape(best['parameter'])}: <b>{told_with(bar, 'optimum', best['value'])}{unit}</b>, "
             f"peak {told_with(bar, 'peak_amplitude', amplitude)} {data['unit']} at "
-            f"{told_with(bar, 'peak_frequency', best['frequency_Hz'], 6)} Hz.</p>" + bracket(best, data["unit"]))
+            f"{told_with(bar, 'peak_frequency', best['frequency_Hz'])} Hz.</p>" + bracket(best, data["unit"]))
 
 
 def response(run: Run, data: Data) -> str:
@@ -231,13 +249,19 @@ def maps(run: Run, data: Data) -> str:
             'where the slider stands. Where the whole face moves alike, the area of the loop is the energy of a period.</p>')
 
 
+def natural_frequency(run: Run, value: Any) -> str:
+    """To what the mesh does to the frequencies of peaks; four digits where that is not known."""
+    told = [abs(row["effect"]) for row in run.summary["error_budget"] if (row["source"], row["goal"]) == ("mesh", "peak_frequency")]
+    return told_like({"peak_frequency": max(told)}, "peak_frequency", value) if told else number(value, 4)
+
+
 def structure(run: Run, data: Data) -> str:
     mesh = run.summary.get("mesh")
     text = ""
     if mesh:
         text = (f"<p>{mesh['nodes']} nodes, {mesh['elements']} elements, {mesh['degrees_of_freedom']} degrees of freedom, "
                 f"{number(mesh['mass_kg'])} kg.</p>")
-    rows = [[str(i + 1), number(mode["frequency_Hz"], 7), number(mode["damping_ratio"]), escape(mode.get("kind") or "")]
+    rows = [[str(i + 1), natural_frequency(run, mode["frequency_Hz"]), number(mode["damping_ratio"]), escape(mode.get("kind") or "")]
             for i, mode in enumerate(run.summary.get("modes") or [])]
     return text + table(["mode", "frequency [Hz]", "damping ratio", "kind"], rows, (0, 1, 2))
 
