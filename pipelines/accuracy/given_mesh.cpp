@@ -7,11 +7,9 @@ namespace microslip::pipelines {
 std::optional<RicherModel> without_mesh_excess(const ReducedModel& model,
                                                const SceneDescription& scene,
                                                const SolvedStructure& structure) {
-  constexpr double safety = 2.0;
   const FrequencyExcess told = frequency_excess(structure.mesh, structure.modes, scene);
   if (told.modes.empty() || !told.is_whole) return std::nullopt;
   RicherModel without{"mesh", model};
-  without.share = safety;
   without.model.frequency *= 1.0 - told.excess.maxCoeff();
   for (std::size_t i = 0; i < told.modes.size(); ++i) {
     const Eigen::Index mode = told.modes[i];

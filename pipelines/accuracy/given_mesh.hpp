@@ -11,7 +11,8 @@ namespace microslip::pipelines {
 
 /// The model with the natural frequencies its elements would have without their error. Modes that
 /// nothing is told of, those above the range and the attachment shapes, err as the worst that is.
-/// Shapes stay. `share` is 2: what is told is 0.5 to 2 times the error (fem/stress_jumps.hpp).
+/// Shapes stay, whose error makes up for some of what that does to amplitudes. What is told of
+/// frequencies is 0.5 to 2 times their error (fem/stress_jumps.hpp).
 /// @return empty: no mesh from elsewhere, or elements of first order, which lock: of them the jumps
 ///         tell a part.
 [[nodiscard]] std::optional<RicherModel> without_mesh_excess(const ReducedModel& model,

@@ -233,7 +233,8 @@ double n_curves(const SceneDescription& scene) {
 /// Of the harmonics of one curve (harmonics_check.hpp).
 double check_seconds(const SceneDescription& scene, CurveEffects effects, Size size) {
   const HarmonicSettings& given = scene.settings.harmonics;
-  if (given.chosen() || !given.checked || size.points == 0.0) return 0.0;
+  const bool is_asked = given.checked && scene.accuracy.error_budget;
+  if (given.chosen() || !is_asked || size.points == 0.0) return 0.0;
   size.harmonics = given.highest + harmonics_of_a_check;
   effects.several_harmonics = true;
   return of_a_check * evaluation_seconds(effects, size);

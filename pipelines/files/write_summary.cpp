@@ -140,7 +140,7 @@ Json bar_json(const CurveSummary& curve, const std::vector<ErrorRow>& budget) {
 
 /// Significant digits that a relative half width allows. What it does not count may be larger.
 int digits_of(double bar, bool counts_all) {
-  const double most = counts_all ? 12.0 : 3.0;
+  const double most = counts_all ? 8.0 : 3.0;
   return static_cast<int>(bar > 0.0 ? std::clamp(std::floor(1.0 - std::log10(bar)), 1.0, most)
                                     : most);
 }

@@ -31,7 +31,7 @@ Findings amplitude(const Facts& facts) {
 }
 
 constexpr std::array about_response{
-    Question{"the largest amplitude is", "%", 0.0, 2.0, "",
+    Question{"the largest amplitude is", "%", 0.0, 3.0, "",
              "vibrations are taken as small; are force, damping and units right?", amplitude},
 };
 

@@ -18,7 +18,8 @@ namespace microslip::pipelines {
 int harmonics_to_check(const ReducedModel& model, const SceneDescription& scene) {
   const HarmonicSettings& harmonics = scene.settings.harmonics;
   constexpr int most_harmonics = 99;  // of a scene
-  if (harmonics.chosen() || !harmonics.checked || model.patches.empty()) return 0;
+  const bool is_asked = harmonics.checked && scene.accuracy.error_budget;
+  if (harmonics.chosen() || !is_asked || model.patches.empty()) return 0;
   const int highest = std::min(harmonics.highest + harmonics_of_a_check, most_harmonics);
   return highest > harmonics.highest + harmonics_of_a_check / 2 ? highest : 0;
 }

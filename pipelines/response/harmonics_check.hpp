@@ -10,7 +10,7 @@
 namespace microslip::pipelines {
 
 /// The highest harmonic that results of a scene with given harmonics are checked with; 0: they are
-/// chosen, there is no contact, or a scene can have none higher.
+/// chosen, there is no contact, nothing is asked of errors, or a scene can have none higher.
 [[nodiscard]] int harmonics_to_check(const ReducedModel& model, const SceneDescription& scene);
 
 /// Solves the highest peak with more harmonics than were given,

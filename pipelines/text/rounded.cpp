@@ -21,10 +21,10 @@ struct Rounded {
 };
 
 Rounded rounded(double value, double bar) {
-  constexpr double rounding = 1e-12;
+  constexpr double exact = 1e-8;  // amplitudes are solved for to no more
   const double half_width = std::abs(value) * bar;
-  if (!(bar > rounding && half_width > 0.0) || !std::isfinite(half_width)) {
-    return {fmt::format("{:.12g}", value), "", ""};
+  if (!(bar > exact && half_width > 0.0) || !std::isfinite(half_width)) {
+    return {fmt::format("{:.8g}", value), "", ""};
   }
   const double decade = std::floor(std::log10(half_width));
   constexpr double one = 1.95;  // what is a one when rounded

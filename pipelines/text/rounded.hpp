@@ -8,7 +8,7 @@ namespace microslip::pipelines {
 
 /// "280 ± 20": value and half width to the first digit of the half width,
 /// to two where that is a one.
-/// @param bar  relative half width, > 0; below 1e-12 the value alone, in full.
+/// @param bar  relative half width, > 0; below 1e-8 the value alone, to eight digits.
 [[nodiscard]] std::string with_half_width(double value, double bar);
 
 /// "280": the value alone, with the digits it has in with_half_width().
