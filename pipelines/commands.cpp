@@ -51,6 +51,19 @@ std::filesystem::path cache_of(const Arguments& arguments) {
   return arguments.no_cache ? std::filesystem::path() : cache_folder();
 }
 
+/// Of --sizes [m].
+std::vector<double> lengths_in(const std::vector<std::string>& words) {
+  std::vector<double> lengths;
+  for (const std::string& word : words) {
+    try {
+      lengths.push_back(to_si(word, "m"));
+    } catch (const UnitError& error) {
+      throw SceneError(fmt::format("--sizes: {}", error.what()));
+    }
+  }
+  return lengths;
+}
+
 RunOptions options_of(const Arguments& arguments, const std::filesystem::path& output) {
   RunOptions options;
   options.output = output;
@@ -284,6 +297,16 @@ int campbell(Arguments& arguments) {
   return run_scene(arguments, [&](const SceneDescription& scene, const RunOptions& options) {
     return campbell_study(scene, request, options);
   });
+}
+
+int converge(Arguments& arguments) {
+  const ConvergeRequest request{arguments.meshes, lengths_in(arguments.sizes), arguments.knobs};
+  const int code =
+      run_scene(arguments, [&](const SceneDescription& scene, const RunOptions& options) {
+        return converge_study(scene, request, options);
+      });
+  if (arguments.dry_run) static_cast<void>(asked_ladders(scene_of(arguments), request));
+  return code;
 }
 
 int mesh(Arguments& arguments) {

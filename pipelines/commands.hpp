@@ -32,7 +32,10 @@ struct Arguments {
   int engine_orders = 8;               // of `campbell`: the highest
   std::string tolerance;
   std::string budget;
-  double repeat_seconds = 240.0;  // of converge
+  double repeat_seconds = 240.0;    // of converge
+  std::vector<std::string> meshes;  // of converge
+  std::vector<std::string> sizes;   // of converge: lengths
+  std::vector<std::string> knobs;   // of converge
   bool resume = false;
   bool no_cache = false;
   bool dry_run = false;
@@ -48,11 +51,13 @@ void refuse_idle_options(const Arguments& arguments);
 
 // One command each. All return the exit code and throw what exit_code_of() knows.
 int check(Arguments& arguments);
-/// `run`, `modes`, `converge`, `campbell`, by the study.
+/// `run`, `modes`, by the study.
 using Study = std::function<int(const SceneDescription&, const RunOptions&)>;
 int run_scene(Arguments& arguments, const Study& study);
 /// Natural frequencies over speed.
 int campbell(Arguments& arguments);
+/// What accuracy costs; with --dry-run what is asked for is looked at all the same.
+int converge(Arguments& arguments);
 int mesh(Arguments& arguments);
 /// What names a mesh file has.
 int surfaces(Arguments& arguments);

@@ -7,23 +7,24 @@
 
 #include <fmt/format.h>
 
+#include "pipelines/system/scene_error.hpp"
+
 namespace microslip::pipelines {
 namespace {
 
-/// The scene with one thing changed, its harmonics as they are and not checked:
-/// what is timed is the curve.
+/// The scene with one thing changed.
 template <typename Change>
 Rung rung(const SceneDescription& scene, std::string value, double size, const Change& change) {
-  Rung result{std::move(value), size, scene};
-  result.scene.settings.harmonics.checked = false;
+  Rung result = rung_of(scene, std::move(value), size);
   change(result.scene);
   return result;
 }
 
-Ladder of_element_size(const SceneDescription& scene) {
-  Ladder ladder{"element_size", "mesh", {}};
+/// @param factors  of the size that the scene has.
+Ladder of_element_size(const SceneDescription& scene, const std::vector<double>& factors) {
+  Ladder ladder{element_size_knob, "mesh", {}};
   const double given = *element_size_of(scene);
-  for (const double factor : {4.0, 2.0, 1.0, 2.0 / 3.0}) {
+  for (const double factor : factors) {
     const double size = factor * given;
     ladder.rungs.push_back(rung(scene, fmt::format("{:.4g}", size), size,
                                 [&](auto& other) { other = with_elements_scaled(other, factor); }));
@@ -120,9 +121,39 @@ Ladder of_second_direction(const SceneDescription& scene) {
 
 }  // namespace
 
+Rung rung_of(const SceneDescription& scene, std::string value, double size) {
+  Rung rung{std::move(value), size, scene};
+  rung.scene.settings.harmonics.checked = false;
+  return rung;
+}
+
+Ladder ladder_of_sizes(const SceneDescription& scene, const std::vector<double>& sizes) {
+  const std::optional<double> given = element_size_of(scene);
+  if (!given) {
+    throw SceneError(fmt::format(
+        "--sizes: goes with scenes of kind \"blade\" or \"step\"; {} is of "
+        "kind \"{}\"{}",
+        scene.file.string(), scene.kind, scene.kind == "mesh" ? ": give --meshes" : ""));
+  }
+  if (sizes.size() < 2) {
+    throw SceneError("--sizes: one size does not converge: expected two or more");
+  }
+  std::vector<double> factors;
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    if (!(sizes[i] > 0.0) || (i > 0 && !(sizes[i] < sizes[i - 1]))) {
+      throw SceneError(
+          fmt::format("--sizes: {:g} m: expected lengths above 0 from coarse to fine", sizes[i]));
+    }
+    factors.push_back(sizes[i] == *given ? 1.0 : sizes[i] / *given);
+  }
+  return of_element_size(scene, factors);
+}
+
 std::vector<Ladder> ladders(const SceneDescription& scene) {
   std::vector<Ladder> result;
-  if (element_size_of(scene)) result.push_back(of_element_size(scene));
+  if (element_size_of(scene)) {
+    result.push_back(of_element_size(scene, {4.0, 2.0, 1.0, 2.0 / 3.0}));
+  }
   if (!std::holds_alternative<ModalModel>(scene.model) && !scene.contacts.empty()) {
     result.push_back(of_modes(scene));
     if (scene.settings.basis.residual == ResidualKind::attachment) {

@@ -19,11 +19,22 @@ struct Rung {
 };
 
 struct Ladder {
-  std::string
-      knob;  ///< element_size, modes, attachment_degree, cells, fit, harmonics, second_direction
+  std::string knob;    ///< element_size, mesh_file, modes, attachment_degree, cells, fit,
+                       ///< second_direction, harmonics, instants
   std::string source;  ///< of error that it refines, as in ErrorRow
   std::vector<Rung> rungs;
 };
+
+/// Of a geometry that is meshed here.
+inline constexpr const char* element_size_knob = "element_size";
+
+/// The scene as it is, its harmonics not checked: what is timed is the curve.
+[[nodiscard]] Rung rung_of(const SceneDescription& scene, std::string value, double size);
+
+/// Element sizes that are asked for. @param sizes  from coarse to fine [m].
+/// @throws SceneError  of a kind whose elements are not made here; one size; another order.
+[[nodiscard]] Ladder ladder_of_sizes(const SceneDescription& scene,
+                                     const std::vector<double>& sizes);
 
 /// Those that the scene has: of kinds without a mesh the harmonics alone.
 [[nodiscard]] std::vector<Ladder> ladders(const SceneDescription& scene);

@@ -165,9 +165,23 @@ void add_converge(CLI::App& app, Arguments& a, Action& chosen) {
   auto* command = with_scene(
       add_command(app, a, chosen, "converge",
                   "what accuracy costs: every choice of the discretisation from coarse to fine",
-                  [&] { return run_scene(a, converge_study); }),
+                  [&] { return converge(a); }),
       a);
   with_output(command, a, "folder for converge/; default runs/SCENE");
+  command
+      ->add_option("--meshes", a.meshes,
+                   "of kind mesh: two files or more from coarse to fine, of the same body with "
+                   "the same names, in place of one mesh")
+      ->expected(1, 1000);
+  command
+      ->add_option("--sizes", a.sizes,
+                   "of kind blade and step: two element sizes or more from coarse to fine, e.g. "
+                   "6mm 4mm 3mm, in place of 4, 2, 1 and 2/3 times that of the scene")
+      ->expected(1, 1000);
+  command
+      ->add_option("--knobs", a.knobs,
+                   "the only ones to go over, e.g. harmonics cells; default all that the scene has")
+      ->expected(1, 1000);
   command
       ->add_option("--repeat", a.repeat_seconds,
                    "seconds to spend on timing stages again, for the median of three; 0: none")

@@ -40,6 +40,14 @@ std::size_t n_harmonics(const ResponsePoint& point) {
                               : point.orders.size();
 }
 
+/// In quotes where it would be several columns.
+std::string csv_text(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char letter : text) quoted.append(letter == '"' ? 2 : 1, letter);
+  return quoted + '"';
+}
+
 std::string or_empty(const std::optional<double>& value) {
   return value ? format_number(*value) : std::string();
 }
@@ -149,8 +157,8 @@ constexpr std::array trust_table{
 };
 
 constexpr std::array ladder_table{
-    Column<RungResult>{"value", "", "of the knob; sizes in m",
-                       [](const auto& r) { return r.value; }},
+    Column<RungResult>{"value", "", "of the knob; sizes in m, mesh files by name",
+                       [](const auto& r) { return csv_text(r.value); }},
     Column<RungResult>{"seconds", "s", "mesh, modes and this curve, wall time, median of the runs",
                        [](const auto& r) { return format_number(r.seconds); }},
     Column<RungResult>{"cpu_seconds", "s", "the same, processor time",
