@@ -4,17 +4,21 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <exception>
 #include <map>
 #include <utility>
 #include <variant>
 
 #include <fmt/format.h>
 
+#include "fem/petsc_error.hpp"
+#include "mesh/refined_mesh.hpp"
 #include "pipelines/accuracy/error_budget.hpp"
 #include "pipelines/description/curve_request.hpp"
 #include "pipelines/response/harmonics_check.hpp"
 #include "pipelines/response/highest_peak.hpp"
 #include "pipelines/response/response_stage.hpp"
+#include "pipelines/structure/solver_memory.hpp"
 #include "pipelines/system/interrupt.hpp"
 #include "pipelines/system/scene_error.hpp"
 #include "pipelines/system/temporary_folder.hpp"
@@ -65,9 +69,18 @@ Seconds timed(Repetitions& again, const Work& work) {
   return {median(wall), median(cpu), static_cast<int>(wall.size())};
 }
 
+/// Points that have coordinates stay the nodes that the mesh has there.
+mesh::Mesh with_elements_cut(mesh::Mesh mesh, const SceneDescription& scene, int n_cuts) {
+  for (int i = 0; i < n_cuts; ++i) {
+    require_memory_when_cut(mesh, scene.settings.basis.solver);
+    mesh = mesh::refined(mesh);
+  }
+  return mesh;
+}
+
 TimedStructure structure_of(const Rung& rung, const TimedStructure& base, Repetitions& again) {
   if (base.solved == nullptr || (rung.same_basis && rung.same_mesh)) return base;
-  if (!rung.same_mesh) return timed_structure(rung.scene, again);
+  if (!rung.same_mesh) return timed_structure(rung.scene, again, rung.n_cuts);
   TimedStructure result;
   const Seconds modes = timed(again, [&] {
     result.solved = std::make_shared<const SolvedStructure>(
@@ -156,7 +169,7 @@ bool Repetitions::take(double seconds) {
   return true;
 }
 
-TimedStructure timed_structure(const SceneDescription& scene, Repetitions& again) {
+TimedStructure timed_structure(const SceneDescription& scene, Repetitions& again, int n_cuts) {
   TimedStructure result;
   if (std::holds_alternative<ModalModel>(scene.model)) {
     result.runs = static_cast<int>(most_runs);
@@ -165,7 +178,7 @@ TimedStructure timed_structure(const SceneDescription& scene, Repetitions& again
   std::optional<mesh::Mesh> mesh;
   const Seconds meshing = timed(again, [&] {
     const TemporaryFolder folder;
-    mesh = obtain_mesh(scene, folder.path() / "mesh.msh");
+    mesh = with_elements_cut(obtain_mesh(scene, folder.path() / "mesh.msh"), scene, n_cuts);
     check_names(*mesh, scene);
   });
   StructureModes modes;
@@ -185,13 +198,18 @@ std::vector<RungResult> climb(const Ladder& ladder, const TimedStructure& base, 
   std::vector<RungResult> results;
   for (const Rung& rung : ladder.rungs) {
     const Stopwatch watch;
+    const auto leave_out = [&](const std::exception& error) {
+      say(fmt::format("{} = {}: left out: {}", ladder.knob, rung.value, error.what()));
+    };
     try {
       climb_rung(rung, ladder.source, base, again, results);
       say(fmt::format("{} = {}: {:.1f} s", ladder.knob, rung.value, watch.seconds()));
     } catch (const SceneError& error) {
-      say(fmt::format("{} = {}: left out: {}", ladder.knob, rung.value, error.what()));
+      leave_out(error);
     } catch (const RefusedError& error) {
-      say(fmt::format("{} = {}: left out: {}", ladder.knob, rung.value, error.what()));
+      leave_out(error);
+    } catch (const fem::MemoryError& error) {
+      leave_out(error);
     }
   }
   add_errors(ladder, results);

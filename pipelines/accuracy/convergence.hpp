@@ -49,11 +49,14 @@ class Repetitions {
   double left_;
 };
 
+/// @param n_cuts  of each element of the mesh along each edge.
 /// @return  nothing solved for kinds without a mesh. @throws as solved_structure().
-[[nodiscard]] TimedStructure timed_structure(const SceneDescription& scene, Repetitions& again);
+[[nodiscard]] TimedStructure timed_structure(const SceneDescription& scene, Repetitions& again,
+                                             int n_cuts = 0);
 
 /// Curves are traced one after the other, so that times are those of one core, three times each
-/// where the time for repetitions allows it. A rung that is refused is left out.
+/// where the time for repetitions allows it. A rung that is refused, or that memory does not hold,
+/// is left out.
 /// @param base  of the scene, for rungs that share it.
 /// @param say   a sentence for every rung.
 [[nodiscard]] std::vector<RungResult> climb(const Ladder& ladder, const TimedStructure& base,

@@ -34,6 +34,16 @@ Ladder of_element_size(const SceneDescription& scene, const std::vector<double>&
   return ladder;
 }
 
+/// One without a size: of two rungs no order is told.
+Ladder of_refinement(const SceneDescription& scene) {
+  Ladder ladder{refinement_knob, "mesh", {}};
+  ladder.rungs.push_back(rung_of(scene, "given", 0.0));
+  ladder.rungs.push_back(rung_of(scene, "halved", 0.0));
+  ladder.rungs.back().n_cuts = 1;
+  ladder.rungs.back().same_mesh = ladder.rungs.back().same_basis = false;
+  return ladder;
+}
+
 Ladder of_modes(const SceneDescription& scene) {
   Ladder ladder{"modes", "basis", {}};
   const BasisSettings& basis = scene.settings.basis;
@@ -154,6 +164,7 @@ std::vector<Ladder> ladders(const SceneDescription& scene) {
   if (element_size_of(scene)) {
     result.push_back(of_element_size(scene, {4.0, 2.0, 1.0, 2.0 / 3.0}));
   }
+  if (scene.kind == "mesh") result.push_back(of_refinement(scene));
   if (!std::holds_alternative<ModalModel>(scene.model) && !scene.contacts.empty()) {
     result.push_back(of_modes(scene));
     if (scene.settings.basis.residual == ResidualKind::attachment) {

@@ -16,6 +16,7 @@ struct Rung {
   SceneDescription scene;
   bool same_basis = true;  ///< the modes of the scene at hand serve
   bool same_mesh = true;   ///< its mesh does
+  int n_cuts = 0;          ///< of each element along each edge (mesh/refined_mesh.hpp)
 };
 
 struct Ladder {
@@ -24,6 +25,9 @@ struct Ladder {
   std::string source;  ///< of error that it refines, as in ErrorRow
   std::vector<Rung> rungs;
 };
+
+/// Of a mesh file: as it is, and with each element cut once along each edge.
+inline constexpr const char* refinement_knob = "refinement";
 
 /// Of a geometry that is meshed here.
 inline constexpr const char* element_size_knob = "element_size";

@@ -11,6 +11,8 @@
 namespace microslip::pipelines {
 namespace {
 
+constexpr double at_least = 0.7;  // of the forecast
+
 std::string gigabytes(double megabytes) { return fmt::format("{:.1f} GB", 1e-3 * megabytes); }
 
 }  // namespace
@@ -41,10 +43,18 @@ std::string memory_warning(const SolverMemory& memory) {
 }
 
 void require_memory(const mesh::Mesh& mesh, fem::SolverKind solver) {
-  constexpr double at_least = 0.7;  // of the forecast
   SolverMemory memory = solver_memory(mesh, solver);
   if (at_least * memory.needed_mb() <= memory.available.megabytes) return;
   throw fem::MemoryError("out of memory: " + memory_warning(memory));
+}
+
+void require_memory_when_cut(const mesh::Mesh& mesh, fem::SolverKind solver) {
+  constexpr double times = 8.0;
+  SolverMemory memory = solver_memory(mesh, solver);
+  memory.direct_mb *= times;
+  memory.iterative_mb *= times;
+  if (at_least * memory.needed_mb() <= memory.available.megabytes) return;
+  throw fem::MemoryError("out of memory: of elements cut in eight " + memory_warning(memory));
 }
 
 std::string with_iterative_way(std::string text) {

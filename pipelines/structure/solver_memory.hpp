@@ -35,6 +35,10 @@ struct SolverMemory {
 ///         available. In between the factorisation asks once more, when MUMPS knows what it needs.
 void require_memory(const mesh::Mesh& mesh, fem::SolverKind solver);
 
+/// The same, before each element is cut along each edge: eight times the unknowns take eight times
+/// as much at least. @throws fem::MemoryError  as above.
+void require_memory_when_cut(const mesh::Mesh& mesh, fem::SolverKind solver);
+
 /// What the direct way has ended with, with the way that takes less memory and its key.
 [[nodiscard]] std::string with_iterative_way(std::string text);
 

@@ -53,7 +53,7 @@ void put(Ladder ladder, const char* in_place_of, std::vector<Ladder>& all) {
 
 std::vector<Ladder> asked_ladders(const SceneDescription& scene, const ConvergeRequest& request) {
   std::vector<Ladder> all = ladders(scene);
-  if (!request.meshes.empty()) all.insert(all.begin(), ladder_of_files(scene, request.meshes));
+  if (!request.meshes.empty()) put(ladder_of_files(scene, request.meshes), refinement_knob, all);
   if (!request.sizes.empty()) put(ladder_of_sizes(scene, request.sizes), element_size_knob, all);
   return request.knobs.empty() ? all : only(request.knobs, std::move(all));
 }
