@@ -6,6 +6,7 @@
 #include <ctime>
 #include <exception>
 #include <map>
+#include <numbers>
 #include <utility>
 #include <variant>
 
@@ -15,6 +16,7 @@
 #include "mesh/refined_mesh.hpp"
 #include "pipelines/accuracy/error_budget.hpp"
 #include "pipelines/description/curve_request.hpp"
+#include "pipelines/response/curve_requirements.hpp"
 #include "pipelines/response/harmonics_check.hpp"
 #include "pipelines/response/highest_peak.hpp"
 #include "pipelines/response/response_stage.hpp"
@@ -96,6 +98,7 @@ TimedStructure structure_of(const Rung& rung, const TimedStructure& base, Repeti
 std::optional<double> told_error(const ReducedModel& model, const SceneDescription& scene,
                                  const RicherModels& richer, const std::string& source,
                                  CurveResult& curve) {
+  if (curve.integrated) return std::nullopt;
   if (source == "harmonics") {
     SceneDescription checked = scene;
     checked.settings.harmonics.checked = true;
@@ -110,20 +113,60 @@ std::optional<double> told_error(const ReducedModel& model, const SceneDescripti
   return std::nullopt;
 }
 
+struct Traced {
+  CurveResult curve;
+  Seconds seconds;
+};
+
+/// The motion at the highest peak of a curve, integrated on until it repeats itself.
+CurveResult integrated_at_peak(const ReducedModel& model, SceneDescription scene,
+                               CurveResult curve) {
+  const solver::ResponsePoint peak = *highest_peak(curve.curve);
+  const double hz = peak.frequency / (2.0 * std::numbers::pi);
+  scene.response->frequency_begin_hz = scene.response->frequency_end_hz = hz;
+  curve.curve = integrated_elsewhere(model, scene, std::get<double>(curve.load), peak, {});
+  curve.integrated = true;
+  for (solver::ResponsePoint& point : curve.curve.points) point.mark = peak.mark;
+  return curve;
+}
+
+Traced traced(const Rung& rung, const ReducedModel& model, const CurveRequest& request,
+              Repetitions& again) {
+  Traced result;
+  const auto trace = [&] {
+    result.curve =
+        trace_curve(model, rung.scene, request, [](const auto&) { return !interrupt_requested(); });
+  };
+  if (!rung.in_time) {
+    result.seconds = timed(again, trace);
+    return result;
+  }
+  trace();
+  const CurveResult balanced = result.curve;
+  if (!balanced.curve.complete || highest_peak(balanced.curve) == nullptr) return result;
+  result.seconds =
+      timed(again, [&] { result.curve = integrated_at_peak(model, rung.scene, balanced); });
+  return result;
+}
+
+/// Peaks are solved for; of a sweep in time what is highest between its ends stands for one.
+bool is_peak(const solver::ResponsePoint& highest, const CurveResult& curve) {
+  const std::vector<solver::ResponsePoint>& points = curve.curve.points;
+  return highest.mark == solver::PointMark::peak ||
+         (curve.integrated && &highest != &points.front() && &highest != &points.back());
+}
+
 void climb_rung(const Rung& rung, const std::string& source, const TimedStructure& base,
                 Repetitions& again, std::vector<RungResult>& results) {
   const TimedStructure structure = structure_of(rung, base, again);
   std::vector<std::string> warnings;
   const ReducedModel model = model_of(rung.scene, structure.solved.get(), warnings);
+  require_curves(model, rung.scene);
   const RicherModels richer = richer_models(model, rung.scene, structure.solved.get(), {source});
   for (const CurveRequest& request : curve_requests(rung.scene)) {
     if (interrupt_requested()) throw InterruptedError("interrupted; finished ladders are kept");
     if (!is_loaded(request)) continue;
-    CurveResult curve;
-    const Seconds tracing = timed(again, [&] {
-      curve = trace_curve(model, rung.scene, request,
-                          [](const auto&) { return !interrupt_requested(); });
-    });
+    auto [curve, tracing] = traced(rung, model, request, again);
     const solver::ResponsePoint* peak = highest_peak(curve.curve);
     if (peak == nullptr || !curve.curve.complete) continue;
     RungResult result{.curve = curve.name,
@@ -133,10 +176,15 @@ void climb_rung(const Rung& rung, const std::string& source, const TimedStructur
                       .runs = std::min(structure.runs, tracing.runs),
                       .amplitude = peak->amplitude,
                       .frequency = peak->frequency,
-                      .is_peak = peak->mark == solver::PointMark::peak};
+                      .is_peak = is_peak(*peak, curve)};
     result.estimated_error = told_error(model, rung.scene, richer, source, curve);
     results.push_back(std::move(result));
   }
+}
+
+/// Peaks, or motions at one frequency: an error from one to the other has an order.
+bool are_alike(const RungResult& one, const RungResult& other) {
+  return (one.is_peak && other.is_peak) || one.frequency == other.frequency;
 }
 
 /// Errors against the finest rung that has the curve, and their orders.
@@ -150,8 +198,8 @@ void add_errors(const Ladder& ladder, std::vector<RungResult>& results) {
     if (&result == finest[result.curve]) continue;
     result.true_error = result.amplitude / finest[result.curve]->amplitude - 1.0;
     const RungResult* coarser = before[result.curve];
-    const bool has_order =
-        coarser != nullptr && coarser->is_peak && result.is_peak && finest[result.curve]->is_peak;
+    const bool has_order = coarser != nullptr && are_alike(*coarser, result) &&
+                           are_alike(result, *finest[result.curve]);
     if (has_order && sizes[result.value] > 0.0) {
       result.order = std::log(std::abs(*coarser->true_error / *result.true_error)) /
                      std::log(sizes[coarser->value] / sizes[result.value]);
@@ -202,6 +250,7 @@ std::vector<RungResult> climb(const Ladder& ladder, const TimedStructure& base, 
       say(fmt::format("{} = {}: left out: {}", ladder.knob, rung.value, error.what()));
     };
     try {
+      if (!rung.refused.empty()) throw SceneError(rung.refused);
       climb_rung(rung, ladder.source, base, again, results);
       say(fmt::format("{} = {}: {:.1f} s", ladder.knob, rung.value, watch.seconds()));
     } catch (const SceneError& error) {

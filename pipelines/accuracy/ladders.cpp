@@ -7,10 +7,13 @@
 
 #include <fmt/format.h>
 
+#include "pipelines/accuracy/bar_counts.hpp"
 #include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {
 namespace {
+
+using Method = ResponseDescription::Method;
 
 /// The scene with one thing changed.
 template <typename Change>
@@ -129,6 +132,101 @@ Ladder of_second_direction(const SceneDescription& scene) {
   return ladder;
 }
 
+/// Without what stands for the modes left out, and with it.
+Ladder of_residual(const SceneDescription& scene) {
+  Ladder ladder{"residual", "basis", {}};
+  using enum ResidualKind;
+  for (const auto& [name, kind] : {std::pair{"none", none}, std::pair{"stiffness", stiffness},
+                                   std::pair{"attachment", attachment}}) {
+    ladder.rungs.push_back(rung(
+        scene, name, 0.0, [kind = kind](auto& other) { other.settings.basis.residual = kind; }));
+    ladder.rungs.back().same_basis = scene.settings.basis.residual == kind;
+  }
+  return ladder;
+}
+
+void add_contact_ladders(const SceneDescription& scene, std::vector<Ladder>& result) {
+  result.push_back(of_modes(scene));
+  if (given_modes(scene) == nullptr) result.push_back(of_residual(scene));
+  if (scene.settings.basis.residual == ResidualKind::attachment) {
+    result.push_back(of_attachment_degree(scene));
+  }
+  result.push_back(of_cells(scene));
+  result.push_back(of_fit(scene));
+  result.push_back(of_second_direction(scene));
+}
+
+/// Of a bar, which is another scene with other counts of points or modes.
+Ladder of_counts(const SceneDescription& scene, const char* knob, const char* source,
+                 int BarCounts::*count, const std::set<int>& numbers) {
+  Ladder ladder{knob, source, {}};
+  for (const int n : numbers) {
+    Rung rung = rung_of(scene, fmt::format("{}", n), 1.0 / n);
+    BarCounts counts = *bar_counts(scene);
+    counts.*count = n;
+    try {
+      rung.scene = with_bar_counts(std::move(rung.scene), counts);
+      const bool has_them = bar_counts(rung.scene).value().*count == n;
+      if (!has_them) rung.refused = fmt::format("the scene names its {} one by one", knob);
+    } catch (const SceneError& error) {
+      rung.refused = error.what();
+    } catch (const RefusedError& error) {
+      rung.refused = error.what();
+    }
+    ladder.rungs.push_back(std::move(rung));
+  }
+  return ladder;
+}
+
+void add_bar_ladders(const SceneDescription& scene, std::vector<Ladder>& result) {
+  const auto [points, modes] = *bar_counts(scene);
+  result.push_back(of_counts(
+      scene, "points", "cells", &BarCounts::points,
+      {std::max(1, points / 16), std::max(1, points / 4), points, 4 * points, 16 * points}));
+  result.push_back(
+      of_counts(scene, "modes", "basis", &BarCounts::modes,
+                {std::max(1, modes / 4), std::max(1, modes / 2), modes, 2 * modes, 4 * modes}));
+}
+
+/// Of a period, fixed; last those between the changes of contact, each of which is located.
+Ladder of_steps(const SceneDescription& scene) {
+  Ladder ladder{"steps", "time", {}};
+  for (const int n : {250, 500, 1000, 2000, 4000, 0}) {
+    ladder.rungs.push_back(rung(scene, n > 0 ? fmt::format("{}", n) : "located",
+                                n > 0 ? 1.0 / n : 0.0, [n](auto& other) {
+                                  other.response->steps_per_period = n;
+                                  other.response->steps_place = "response.steps_per_period";
+                                }));
+  }
+  return ladder;
+}
+
+/// Not of hundreds of points with tens of modes: an integration takes minutes.
+bool is_cheap_in_time(const SceneDescription& scene) {
+  constexpr double most = 5000.0;  // 200 points, 10 modes: 7 s
+  const auto& modal = std::get<ModalModel>(scene.model);
+  return static_cast<double>(modal.points.size()) *
+             static_cast<double>(modal.frequency_hz.size()) <=
+         most;
+}
+
+/// Harmonics of a scene that is integrated were none to choose: chosen ones.
+Ladder of_method(const SceneDescription& scene) {
+  constexpr double tolerance = 0.005;
+  Ladder ladder{"method", "time", {}};
+  for (const auto& [name, in_time] :
+       {std::pair{"harmonic_balance", false}, std::pair{"time", true}}) {
+    ladder.rungs.push_back(rung(scene, name, 0.0, [&](auto& other) {
+      if (scene.response->method != Method::time) return;
+      other.response->method = Method::harmonic_balance;
+      other.settings.harmonics = automatic_harmonics(tolerance);
+      other.settings.harmonics.checked = false;
+    }));
+    ladder.rungs.back().in_time = in_time;
+  }
+  return ladder;
+}
+
 }  // namespace
 
 Rung rung_of(const SceneDescription& scene, std::string value, double size) {
@@ -161,21 +259,17 @@ Ladder ladder_of_sizes(const SceneDescription& scene, const std::vector<double>&
 
 std::vector<Ladder> ladders(const SceneDescription& scene) {
   std::vector<Ladder> result;
+  const bool meshed = !std::holds_alternative<ModalModel>(scene.model);
+  const bool in_time = scene.response && scene.response->method == Method::time;
   if (element_size_of(scene)) {
     result.push_back(of_element_size(scene, {4.0, 2.0, 1.0, 2.0 / 3.0}));
   }
   if (scene.kind == "mesh") result.push_back(of_refinement(scene));
-  if (!std::holds_alternative<ModalModel>(scene.model) && !scene.contacts.empty()) {
-    result.push_back(of_modes(scene));
-    if (scene.settings.basis.residual == ResidualKind::attachment) {
-      result.push_back(of_attachment_degree(scene));
-    }
-    result.push_back(of_cells(scene));
-    result.push_back(of_fit(scene));
-    result.push_back(of_second_direction(scene));
-  }
-  result.push_back(of_harmonics(scene));
-  if (!scene.contacts.empty()) result.push_back(of_instants(scene));
+  if (meshed && !scene.contacts.empty()) add_contact_ladders(scene, result);
+  if (bar_counts(scene)) add_bar_ladders(scene, result);
+  result.push_back(in_time ? of_steps(scene) : of_harmonics(scene));
+  if (!scene.contacts.empty() && !in_time) result.push_back(of_instants(scene));
+  if (scene.response && !meshed && is_cheap_in_time(scene)) result.push_back(of_method(scene));
   return result;
 }
 

@@ -17,11 +17,15 @@ struct Rung {
   bool same_basis = true;  ///< the modes of the scene at hand serve
   bool same_mesh = true;   ///< its mesh does
   int n_cuts = 0;          ///< of each element along each edge (mesh/refined_mesh.hpp)
+  /// Integrated in time at the highest peak of each curve, on from the motion there.
+  bool in_time = false;
+  std::string refused{};  ///< why the scene cannot be so; empty: it can
 };
 
 struct Ladder {
-  std::string knob;    ///< element_size, mesh_file, modes, attachment_degree, cells, fit,
-                       ///< second_direction, harmonics, instants
+  /// element_size, mesh_file, refinement, modes, residual, attachment_degree, cells, fit,
+  /// second_direction, points, harmonics, instants, steps, method.
+  std::string knob;
   std::string source;  ///< of error that it refines, as in ErrorRow
   std::vector<Rung> rungs;
 };
@@ -40,7 +44,9 @@ inline constexpr const char* element_size_knob = "element_size";
 [[nodiscard]] Ladder ladder_of_sizes(const SceneDescription& scene,
                                      const std::vector<double>& sizes);
 
-/// Those that the scene has: of kinds without a mesh the harmonics alone.
+/// Those that the scene has: of kinds without a mesh the harmonics, of bars their points and modes
+/// too; integrated in time, the steps in place of harmonics. Without a mesh balance and integration
+/// are set against each other.
 [[nodiscard]] std::vector<Ladder> ladders(const SceneDescription& scene);
 
 }  // namespace microslip::pipelines

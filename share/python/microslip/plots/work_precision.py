@@ -16,8 +16,10 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-COLOURS = {"element_size": "#4c72b0", "modes": "#dd8452", "attachment_degree": "#ccb974", "cells": "#55a868",
-           "fit": "#64b5cd", "harmonics": "#c44e52", "second_direction": "#8172b3"}
+COLOURS = {"element_size": "#4c72b0", "mesh_file": "#4c72b0", "refinement": "#1f3b66", "modes": "#dd8452",
+           "residual": "#937860", "attachment_degree": "#ccb974", "cells": "#55a868", "points": "#55a868", "fit": "#64b5cd",
+           "harmonics": "#c44e52", "instants": "#da8bc3", "steps": "#c44e52", "second_direction": "#8172b3",
+           "method": "#4d4d4d"}
 SMALLEST = 1e-5  # %, of an error that is drawn
 
 
