@@ -156,15 +156,16 @@ bool is_peak(const solver::ResponsePoint& highest, const CurveResult& curve) {
          (curve.integrated && &highest != &points.front() && &highest != &points.back());
 }
 
+/// @param keep  what has come of each curve.
 void climb_rung(const Rung& rung, const std::string& source, const TimedStructure& base,
-                Repetitions& again, std::vector<RungResult>& results) {
+                Repetitions& again, const std::function<void(RungResult)>& keep) {
   const TimedStructure structure = structure_of(rung, base, again);
   std::vector<std::string> warnings;
   const ReducedModel model = model_of(rung.scene, structure.solved.get(), warnings);
   require_curves(model, rung.scene);
   const RicherModels richer = richer_models(model, rung.scene, structure.solved.get(), {source});
   for (const CurveRequest& request : curve_requests(rung.scene)) {
-    if (interrupt_requested()) throw InterruptedError("interrupted; finished ladders are kept");
+    if (interrupt_requested()) throw InterruptedError("interrupted; what was finished is kept");
     if (!is_loaded(request)) continue;
     auto [curve, tracing] = traced(rung, model, request, again);
     const solver::ResponsePoint* peak = highest_peak(curve.curve);
@@ -178,7 +179,7 @@ void climb_rung(const Rung& rung, const std::string& source, const TimedStructur
                       .frequency = peak->frequency,
                       .is_peak = is_peak(*peak, curve)};
     result.estimated_error = told_error(model, rung.scene, richer, source, curve);
-    results.push_back(std::move(result));
+    keep(std::move(result));
   }
 }
 
@@ -187,12 +188,16 @@ bool are_alike(const RungResult& one, const RungResult& other) {
   return (one.is_peak && other.is_peak) || one.frequency == other.frequency;
 }
 
-/// Errors against the finest rung that has the curve, and their orders.
+/// Errors against the finest rung that has the curve, and their orders, in place of earlier ones.
 void add_errors(const Ladder& ladder, std::vector<RungResult>& results) {
   std::map<std::string, double> sizes;
   for (const Rung& rung : ladder.rungs) sizes[rung.value] = rung.size;
   std::map<std::string, const RungResult*> finest;
-  for (const RungResult& result : results) finest[result.curve] = &result;
+  for (RungResult& result : results) {
+    result.true_error.reset();
+    result.order.reset();
+    finest[result.curve] = &result;
+  }
   std::map<std::string, RungResult*> before;
   for (RungResult& result : results) {
     if (&result == finest[result.curve]) continue;
@@ -242,17 +247,22 @@ TimedStructure timed_structure(const SceneDescription& scene, Repetitions& again
 }
 
 std::vector<RungResult> climb(const Ladder& ladder, const TimedStructure& base, Repetitions& again,
-                              const std::function<void(const std::string&)>& say) {
+                              const ClimbObserver& observer) {
   std::vector<RungResult> results;
+  const auto keep = [&](RungResult result) {
+    results.push_back(std::move(result));
+    add_errors(ladder, results);
+    observer.keep(results);
+  };
   for (const Rung& rung : ladder.rungs) {
     const Stopwatch watch;
     const auto leave_out = [&](const std::exception& error) {
-      say(fmt::format("{} = {}: left out: {}", ladder.knob, rung.value, error.what()));
+      observer.say(fmt::format("{} = {}: left out: {}", ladder.knob, rung.value, error.what()));
     };
     try {
       if (!rung.refused.empty()) throw SceneError(rung.refused);
-      climb_rung(rung, ladder.source, base, again, results);
-      say(fmt::format("{} = {}: {:.1f} s", ladder.knob, rung.value, watch.seconds()));
+      climb_rung(rung, ladder.source, base, again, keep);
+      observer.say(fmt::format("{} = {}: {:.1f} s", ladder.knob, rung.value, watch.seconds()));
     } catch (const SceneError& error) {
       leave_out(error);
     } catch (const RefusedError& error) {
@@ -261,7 +271,6 @@ std::vector<RungResult> climb(const Ladder& ladder, const TimedStructure& base, 
       leave_out(error);
     }
   }
-  add_errors(ladder, results);
   return results;
 }
 

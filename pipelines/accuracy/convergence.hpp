@@ -3,6 +3,7 @@
 /// against the finest rung, the error that a run would have told there, and the time.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -54,13 +55,19 @@ class Repetitions {
 [[nodiscard]] TimedStructure timed_structure(const SceneDescription& scene, Repetitions& again,
                                              int n_cuts = 0);
 
+/// Told on the way.
+struct ClimbObserver {
+  std::function<void(const std::string&)> say;  ///< a sentence for every rung
+  /// All that is known, after every curve: errors are against the finest rung until then.
+  std::function<void(const std::vector<RungResult>&)> keep;
+};
+
 /// Curves are traced one after the other, so that times are those of one core, three times each
 /// where the time for repetitions allows it. A rung that is refused, or that memory does not hold,
 /// is left out.
 /// @param base  of the scene, for rungs that share it.
-/// @param say   a sentence for every rung.
+/// @throws InterruptedError  what was found has been handed on.
 [[nodiscard]] std::vector<RungResult> climb(const Ladder& ladder, const TimedStructure& base,
-                                            Repetitions& again,
-                                            const std::function<void(const std::string&)>& say);
+                                            Repetitions& again, const ClimbObserver& observer);
 
 }  // namespace microslip::pipelines

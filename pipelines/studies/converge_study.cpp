@@ -74,8 +74,11 @@ int converge_study(const SceneDescription& scene, const ConvergeRequest& request
   say(fmt::format("mesh and modes: {:.1f} s, median of {}", base.seconds, base.runs));
   for (const Ladder& ladder : climbed) {
     const std::filesystem::path table = folder / (ladder.knob + ".csv");
-    const std::vector<RungResult> rungs = climb(ladder, base, again, say);
-    write_ladder_csv(table, rungs);
+    const auto write = [&](const std::vector<RungResult>& known) {
+      write_ladder_csv(table, known);  // an interrupt leaves what there is
+    };
+    const std::vector<RungResult> rungs = climb(ladder, base, again, {say, write});
+    if (rungs.empty()) write(rungs);
     say(ladder_text(ladder.knob, rungs));
   }
   const std::string failure =
