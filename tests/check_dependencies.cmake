@@ -18,7 +18,7 @@ set(uses_pipelines mesh fem contact solver)
 # The face of each room: what may lie at its root. A name stands for its header; in pipelines/, which no room includes,
 # for the source as well: they are the pages to read first.
 set(face_mesh blade_geometry count_text element_block element_shape element_type face_frame interpolation mesh mesh_error mesh_reader
-  mesher_process outer_faces refined_mesh shape_functions step_geometry surface)
+  mesher_process outer_faces refined_mesh shape_functions step_geometry surface text_file)
 set(face_fem attachment bending_error blas_threads given_matrices machine_memory material memory_forecast modal_analysis modal_basis modal_mass
   petsc_error rank_messages ranks rotation slepc_session solver_kind stress_jumps surface_load)
 set(face_contact bracketed_root contact_effects contact_force contact_map contact_state contact_states dense harmonics modal_force

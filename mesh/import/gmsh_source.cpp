@@ -10,9 +10,20 @@
 #include <utility>
 
 #include "mesh/mesh_error.hpp"
+#include "mesh/text_file.hpp"
 
 namespace microslip::mesh {
 namespace {
+
+/// $MeshFormat, and on the line below version, 1 for binary, and the size of a number.
+bool says_binary(const std::string& preface) {
+  std::istringstream words(preface.substr(std::min(preface.find("$MeshFormat"), preface.size())));
+  std::string name;
+  std::string version;
+  std::string kind;
+  words >> name >> version >> kind;
+  return kind == "1";
+}
 
 /// Of a file of any size: what is no mesh is told before it is read whole.
 std::string content_of(const std::filesystem::path& file) {
@@ -31,6 +42,7 @@ std::string content_of(const std::filesystem::path& file) {
   };
   read(0);
   if (text.find('$') == std::string::npos) return text;
+  if (!says_binary(text)) require_text(file);
   const std::size_t begun = text.size();
   text.resize(std::filesystem::file_size(file));
   read(std::min(begun, text.size()));

@@ -12,30 +12,42 @@
 #include "mesh/import/step_statements.hpp"
 #include "mesh/mesh_error.hpp"
 #include "mesh/step_geometry.hpp"
+#include "mesh/text_file.hpp"
 
 namespace microslip::mesh {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string text_of(const fs::path& file) {
-  std::error_code error;
-  if (!fs::exists(file, error)) throw MeshError(file.string() + ": no such file");
-  if (!fs::is_regular_file(file, error)) throw MeshError(file.string() + ": not a file");
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return std::move(text).str();
-}
-
-void require_whole(const std::string& text, const fs::path& file) {
+void require_begin(std::string_view text, const fs::path& file) {
   constexpr std::string_view begin = "ISO-10303-21;";
-  constexpr std::string_view end = "END-ISO-10303-21;";
   const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   if (first == text.npos || text.compare(first, begin.size(), begin) != 0) {
     throw MeshError(file.string() +
                     ": not a STEP file: it does not begin with \"ISO-10303-21;\"; export the "
                     "geometry as STEP (AP203, AP214 or AP242), in text");
   }
+}
+
+/// Of a file of any size: what is none in STEP is told before it is read whole.
+std::string text_of(const fs::path& file) {
+  std::error_code error;
+  if (!fs::exists(file, error)) throw MeshError(file.string() + ": no such file");
+  if (!fs::is_regular_file(file, error)) throw MeshError(file.string() + ": not a file");
+  std::ifstream stream(file, std::ios::binary);
+  std::string preface(4096, ' ');
+  stream.read(preface.data(), static_cast<std::streamsize>(preface.size()));
+  require_begin(preface, file);
+  require_text(file);
+  stream.clear();
+  stream.seekg(0);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return std::move(text).str();
+}
+
+void require_end(const std::string& text, const fs::path& file) {
+  constexpr std::string_view end = "END-ISO-10303-21;";
   constexpr std::size_t tail = 1000;  // comments may follow the mark
   if (text.find(end, text.size() - std::min(tail, text.size())) == text.npos) {
     throw MeshError(file.string() + ": the file ends before its end mark \"" + std::string(end) +
@@ -144,7 +156,7 @@ std::optional<StepUnit> unit_of(const Statements& statements, int number, int de
 
 std::vector<StepUnit> step_length_units(const fs::path& file) {
   const std::string text = text_of(file);
-  require_whole(text, file);
+  require_end(text, file);
   require_sound_statements(text, file);
   const Statements statements(text);
   std::vector<StepUnit> units;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <fstream>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -16,7 +17,9 @@
 #include <nlohmann/json.hpp>
 
 #include "mesh/mesh_error.hpp"
+#include "mesh/text_file.hpp"
 #include "pipelines/system/child_process.hpp"
+#include "pipelines/system/mesh_format.hpp"
 #include "pipelines/system/scene_error.hpp"
 #include "pipelines/system/script.hpp"
 
@@ -54,6 +57,37 @@ void require_plausible_begin(const fs::path& file) {
   }
 }
 
+/// At most 4096 bytes of a file, from a place up to another.
+std::string bytes_between(const fs::path& file, std::uintmax_t begin, std::uintmax_t end) {
+  constexpr std::uintmax_t most = 4096;
+  std::string bytes(std::min(end - begin, most), ' ');
+  std::ifstream stream(file, std::ios::binary);
+  stream.seekg(static_cast<std::streamoff>(begin));
+  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  return bytes;
+}
+
+/// Data behind these marks are binary: the third line of a .vtk, the end of a .vtu.
+bool holds_binary_data(const fs::path& file, std::uintmax_t zero) {
+  const std::uintmax_t near = zero - std::min<std::uintmax_t>(zero, 4096);
+  return bytes_between(file, 0, zero).find("\nBINARY") != std::string::npos ||
+         bytes_between(file, near, zero).find("<AppendedData") != std::string::npos;
+}
+
+/// Those that may hold binary data are asked where the first of them is.
+void require_text_in(const fs::path& file) {
+  const std::string ending = ending_of(file);
+  const auto is_one_of = [&](std::initializer_list<std::string_view> endings) {
+    return std::ranges::find(endings, ending) != endings.end();
+  };
+  if (is_one_of({".inp", ".bdf", ".nas", ".fem", ".unv", ".frd", ".pch", ".csv"})) {
+    mesh::require_text(file);
+  } else if (is_one_of({".vtk", ".vtu"})) {
+    const auto zero = mesh::first_zero_byte(file);
+    if (zero && !holds_binary_data(file, zero->offset)) mesh::require_text(file);
+  }
+}
+
 /// MICROSLIP_CONVERTER stands in for the script, as MICROSLIP_MESHER does for the mesher.
 std::vector<std::string> converter(const std::string& script) {
   std::vector<std::string> command = script_command(script);
@@ -70,6 +104,7 @@ nlohmann::json convert_file(const std::string& script, const fs::path& file, con
   require_file(file);
   if (!deck.empty()) require_file(deck);
   require_plausible_begin(file);
+  for (const fs::path& read : {file, deck}) require_text_in(read);
   const fs::path facts = output.string() + ".json";
   const std::uintmax_t size = fs::file_size(file) + (deck.empty() ? 0 : fs::file_size(deck));
   const double megabytes = static_cast<double>(size) / 1e6;

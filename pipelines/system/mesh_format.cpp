@@ -17,15 +17,14 @@ constexpr std::string_view gmsh_ending = ".msh";
 constexpr std::array<std::string_view, 11> converted_endings{
     ".inp", ".bdf", ".nas", ".fem", ".unv", ".med", ".vtu", ".vtk", ".e", ".exo", ".ex2"};
 
-/// Of the name, in small letters.
+}  // namespace
+
 std::string ending_of(const std::filesystem::path& file) {
   std::string ending = file.extension().string();
   std::ranges::transform(ending, ending.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return ending;
 }
-
-}  // namespace
 
 bool is_step_file(const std::filesystem::path& file) {
   const std::string ending = ending_of(file);

@@ -10,6 +10,9 @@ namespace microslip::pipelines {
 /// converted: by share/scripts/convert_mesh.py.
 enum class MeshFormat { gmsh, converted, unknown };
 
+/// Of the name, in small letters: ".inp".
+[[nodiscard]] std::string ending_of(const std::filesystem::path& file);
+
 /// By the ending of the name, in capitals or not.
 [[nodiscard]] MeshFormat mesh_format(const std::filesystem::path& file);
 

@@ -149,6 +149,14 @@ def sparse(size):
     return make
 
 
+def zeros_behind(begin, size):
+    """A begin that is right, and behind it what a lost block of a disk leaves."""
+    def make(path):
+        write(path, begin)
+        os.truncate(path, size)
+    return make
+
+
 def structures():
     """Keys, sections and types."""
     for section in ("model", "modal", "response"):
@@ -331,6 +339,11 @@ $EndElements
 """
 
 
+BEGINS = {".inp": "*NODE\n1,0.,0.,0.\n", ".bdf": "BEGIN BULK\nGRID,1,,0.,0.,0.\n", ".unv": "    -1\n  2411\n",
+          ".vtu": '<?xml version="1.0"?>\n<VTKFile type="UnstructuredGrid">\n', ".vtk": "# vtk DataFile Version 3.0\n",
+          " 2.2.msh": "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n", " 4.1.msh": "$MeshFormat\n"}
+
+
 def mesh_case(kind, name, content, **more):
     file = "mesh" + re.sub(r".*\.", ".", kind)
     return Case("mesh" + kind, name, {file: content}, ["surfaces", file], **more)
@@ -343,6 +356,8 @@ def meshes(sound):
         yield mesh_case(kind, "a folder", os.mkdir)
         yield mesh_case(kind, "zeros", sparse(1 << 30))
         yield mesh_case(kind, "a scene", MODAL)
+        if begin := BEGINS.get(kind):
+            yield mesh_case(kind, "zeros behind its begin", zeros_behind(begin, 1 << 30), says="value 0")
         yield mesh_case(kind, "half of it", content[:len(content) // 2], must_refuse=kind != ".inp")
     for version, text in (("2.2", GMSH_2), ("4.1", GMSH_4)):
         def changed(name, old, new, count=1, **more):
@@ -434,7 +449,9 @@ def other_codes(source):
         for name, content in (("empty", b""), ("zeros", sparse(1 << 30)), ("half of it", sound["plate/" + file][:len(sound["plate/" + file]) // 2])):
             yield made("plate_matrices", file, name, content)
     modes = sound["plate/plate.frd"]
-    for name, content in (("empty", b""), ("zeros", sparse(1 << 30)), ("a scene", MODAL)):
+    yield made("plate_nastran", "plate.pch", "zeros behind its begin", zeros_behind("$TITLE\n", 1 << 30), says="value 0")
+    for name, content in (("empty", b""), ("zeros", sparse(1 << 30)), ("a scene", MODAL),
+                          ("zeros behind its begin", zeros_behind("    1C\n", 1 << 30))):
         yield made("plate_calculix", "plate.frd", name, content)
     for share in range(5, 100, 20):
         yield made("plate_calculix", "plate.frd", f"{share} %", modes[:len(modes) * share // 100], says="")
@@ -465,6 +482,10 @@ def steps(source):
     def case(name, old, new, **more):
         return Case("STEP", name, {"b.step": sound.replace(old, new, 1)}, ["faces", "b.step"], **{"says": "b.step", **more})
 
+    yield Case("STEP", "zeros", {"b.step": sparse(1 << 30)}, ["faces", "b.step"], says="not a STEP file")
+    for arguments in (["faces", "b.step"], ["init", "mesh", "b.step"]):
+        yield Case("STEP", f"{arguments[0]}: zeros behind its begin", {"b.step": zeros_behind("ISO-10303-21;\n", 1 << 30)}, arguments,
+                   says="value 0")
     face = re.search(r"#(\d+) ?= ?ADVANCED_FACE", sound)
     yield case("a statement is lost", face[0], "#999999 = ADVANCED_FACE", says=f"#{face[1]}")
     yield case("a statement twice", face[0], "#1 = ADVANCED_FACE", says="twice")

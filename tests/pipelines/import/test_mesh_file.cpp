@@ -7,6 +7,8 @@
 #include <ctime>
 #include <fstream>
 #include <functional>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -162,6 +164,31 @@ TEST_F(MeshFile, WhatIsNoMeshIsToldBeforeItIsReadWhole) {
     EXPECT_LT(std::clock() - begin, CLOCKS_PER_SEC) << ending;
   }
   expect_words(refusal(write("letters.inp", std::string(100000, 'a'))), {"letters.inp:1", "line"});
+}
+
+/// What a lost block of a disk leaves; binary data may hold what text may not.
+TEST_F(MeshFile, ZerosInTextAreToldBeforeItIsReadWhole) {
+  const std::vector<std::pair<std::string, std::string>> begins{
+      {"zeros.inp", "*NODE\n1,0.,0.,0.\n"},
+      {"zeros.bdf", "BEGIN BULK\nGRID,1,,0.,0.,0.\n"},
+      {"zeros.unv", "    -1\n  2411\n"},
+      {"zeros.vtk", "# vtk DataFile Version 3.0\nmesh\nASCII\n"},
+      {"zeros.vtu", "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\">\n"}};
+  for (const auto& [name, begin] : begins) {
+    const std::filesystem::path zeros = write(name, begin);
+    std::filesystem::resize_file(zeros, 1U << 30U);
+    const std::clock_t before = std::clock();
+    expect_words(refusal(zeros), {name + ":", "a byte of value 0"});
+    EXPECT_LT(std::clock() - before, CLOCKS_PER_SEC) << name;
+  }
+  for (const auto& [name, begin] :
+       {std::pair<std::string, std::string>{"some.vtk",
+                                            "# vtk DataFile Version 3.0\nmesh\nBINARY\n"},
+        {"some.vtu", "<VTKFile>\n<AppendedData encoding=\"raw\">\n_"}}) {
+    const std::filesystem::path some = write(name, begin);
+    std::filesystem::resize_file(some, 200);
+    EXPECT_EQ(refusal(some).find("a byte of value 0"), std::string::npos) << refusal(some);
+  }
 }
 
 /// Memory is limited to what the user's own limit leaves (`ulimit -v`).
