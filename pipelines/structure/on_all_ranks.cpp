@@ -72,6 +72,7 @@ void on_all_ranks(std::string_view name, const std::function<std::string()>& byt
 int serve_rank_zero(std::span<const Part> parts) {
   std::signal(SIGINT, SIG_IGN);  // rank 0 answers, and ends all
   std::signal(SIGTERM, SIG_IGN);
+  std::signal(SIGHUP, SIG_IGN);
   fem::Order order;
   const auto failure = failure_of([&] {
     for (order = fem::await_order(); order.work; order = fem::await_order()) {

@@ -1,5 +1,6 @@
 #include "pipelines/system/interrupt.hpp"
 
+#include <array>
 #include <csignal>
 #include <cstdlib>
 #include <utility>
@@ -20,18 +21,34 @@ extern "C" void note_signal(int /*signal*/) {
   requested = 1;
 }
 
-void answer_by(void (*handler)(int)) {
+void answer_by(int signal, void (*handler)(int)) {
   struct sigaction action = {};
   action.sa_handler = handler;
   sigemptyset(&action.sa_mask);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+  sigaction(signal, &action, nullptr);
+}
+
+bool is_ignored(int signal) {
+  struct sigaction action = {};
+  return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
+/// The terminal was closed, the processor time that a batch system allows is over. Who starts a
+/// program with one of them ignored, as nohup does, wants it to go on.
+constexpr std::array unless_ignored{SIGHUP, SIGXCPU};
+
+void answer_all_by(void (*handler)(int)) {
+  answer_by(SIGINT, handler);
+  answer_by(SIGTERM, handler);
+  for (const int signal : unless_ignored) {
+    if (!is_ignored(signal)) answer_by(signal, handler);
+  }
 }
 
 }  // namespace
 
-InterruptWatch::InterruptWatch() { answer_by(note_signal); }
-InterruptWatch::~InterruptWatch() { answer_by(SIG_DFL); }
+InterruptWatch::InterruptWatch() { answer_all_by(note_signal); }
+InterruptWatch::~InterruptWatch() { answer_all_by(SIG_DFL); }
 
 PromptEnd::PromptEnd() { end_is_promised = 1; }
 PromptEnd::~PromptEnd() { end_is_promised = 0; }

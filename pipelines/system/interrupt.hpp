@@ -1,5 +1,5 @@
 /// @file
-/// Ctrl-C and SIGTERM as a flag the stages look at.
+/// Ctrl-C, SIGTERM, SIGHUP and SIGXCPU as a flag the stages look at.
 #pragma once
 
 #include <stop_token>

@@ -227,7 +227,7 @@ class Campaign:
             file.write(text)
         code, words, seconds = self.run(folder)
         try:
-            outcome = self.outcome(folder, code, words, modal if row[:2] == ("points", "constant") else None)
+            outcome = self.outcome(folder, code, words, modal if row[:2] == ("points", "constant") else None, seconds)
         except AssertionError as wrong:
             outcome = "WRONG"
             words = str(wrong)
@@ -253,8 +253,8 @@ class Campaign:
             words.seek(0)
             return process.returncode, words.read(), used.ru_utime + used.ru_stime
 
-    def outcome(self, folder, code, words, modal):
-        if code == -signal.SIGXCPU:
+    def outcome(self, folder, code, words, modal, seconds):
+        if code == 3 and seconds >= CAP:  # told by SIGXCPU, which interrupts it
             return OVER
         if code < 0:
             raise AssertionError(f"ended by signal {-code}")

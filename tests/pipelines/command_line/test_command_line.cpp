@@ -673,9 +673,9 @@ bool has_child(pid_t parent) {
 }
 
 /// Interrupts a child: exit code 3 within a second.
-void interrupt(pid_t child) {
+void interrupt(pid_t child, int signal = SIGINT) {
   const auto asked = Clock::now();
-  ASSERT_EQ(::kill(child, SIGINT), 0);
+  ASSERT_EQ(::kill(child, signal), 0);
   int status = 0;
   ASSERT_EQ(::waitpid(child, &status, 0), child);
   EXPECT_LT(Clock::now() - asked, std::chrono::milliseconds(1500));  // a second, and a busy machine
@@ -700,6 +700,31 @@ TEST_F(Program, AnInterruptEndsWithinASecondAndKeepsWhatIsComplete) {
   EXPECT_NE(summary["message"].get<std::string>().find("--resume goes on"), std::string::npos);
   EXPECT_NE(content_of(path("out/report.md")).find("--resume goes on"), std::string::npos);
   EXPECT_FALSE(exists("out/.lock"));
+}
+
+/// A terminal that is closed, and the end of the processor time a batch system allows.
+TEST_F(Program, SignalsFromOutsideAreAnsweredAsAnInterruptIs) {
+  std::string scales = "[1";
+  for (int i = 2; i <= 3000; ++i) scales.append(",").append(std::to_string(i));
+  write(path("scene.toml"), scene_text + ("preload_scale = " + scales + "]\n"));
+  for (const int signal : {SIGHUP, SIGXCPU}) {
+    SCOPED_TRACE(signal);
+    const pid_t child = start({"run", path("scene.toml"), "-o", path("out"), "-q"});
+    ASSERT_GE(child, 0);
+    wait_until([this] { return exists("out/curves/scale_1.csv"); });
+    interrupt(child, signal);
+    EXPECT_EQ(Json::parse(content_of(path("out/summary.json")))["exit_code"], 3);
+    EXPECT_FALSE(exists("out/.lock"));
+    std::filesystem::remove_all(path("out"));
+  }
+}
+
+TEST_F(Program, UnderNohupAClosedTerminalIsNoInterrupt) {
+  write(path("scene.toml"), scene_text + std::string("preload_scale = [1, 2, 3, 4, 5, 6, 7, 8]\n"));
+  EXPECT_EQ(run("run scene.toml -q -o out & child=$!; sleep 0.3; kill -HUP $child; wait $child",
+                "trap '' HUP;")
+                .code,
+            0);
 }
 
 /// Impatience costs neither the summary nor the lock.
