@@ -773,6 +773,12 @@ TEST_F(Program, LittleAddressSpaceIsNoHang) {
     const Outcome outcome = run("run scene.toml -q -j 2 -o out", limit);
     EXPECT_TRUE(outcome.code == 0 || outcome.code == 4) << outcome.code << outcome.err;
     EXPECT_FALSE(exists("out/.lock")) << megabytes;
+    // Each thread would ask for a heap of its own, again at every allocation.
+    const Outcome many =
+        run("run scene.toml -q -j 2 --without plots -o many --set response.harmonics=3 "
+            "--set response.preload_scale=[0.5,1,2,4]",
+            limit);
+    EXPECT_TRUE(many.code == 0 || many.code == 4) << megabytes << ": " << many.code << many.err;
     const Outcome large = run(  // matrices that are worth a call of LAPACK
         "run '" MICROSLIP_SCENES "/chain_2dof.toml' -q -j 1 --without plots -o large", limit);
     EXPECT_TRUE(large.code == 0 || large.code == 4) << megabytes << ": " << large.code << large.err;
