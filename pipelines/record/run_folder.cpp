@@ -131,9 +131,13 @@ RunFolder::RunFolder(fs::path folder, RunStart start) : folder_(std::move(folder
 }
 
 RunFolder::~RunFolder() {
+  remove_staged();
+  unlock();
+}
+
+void RunFolder::remove_staged() {
   std::error_code ignored;  // a leftover that the next run removes
   fs::remove_all(staged(), ignored);
-  unlock();
 }
 
 bool RunFolder::has_list(const fs::path& folder) { return fs::exists(folder / list_name); }

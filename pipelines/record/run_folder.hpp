@@ -46,7 +46,8 @@ class RunFolder {
   void remove_superseded();
   /// Removes all files of earlier runs that have no successor.
   void remove_earlier();
-  /// Removes the lock: for a process that ends without unwinding.
+  /// For a process that ends without unwinding: what is staged and not published, and the lock.
+  void remove_staged();
   void unlock();
 
  private:

@@ -26,6 +26,7 @@
 #include "pipelines/files/write_summary.hpp"
 #include "pipelines/files/write_vtk.hpp"
 #include "pipelines/record/failed_start.hpp"
+#include "pipelines/record/failure_in_place.hpp"
 #include "pipelines/record/run_folder.hpp"
 #include "pipelines/record/run_messages.hpp"
 #include "pipelines/response/effects_of_curves.hpp"
@@ -76,7 +77,7 @@ RunRecord::RunRecord(const SceneDescription& scene, const RunOptions& options)
   summary_.scene = scene.file.filename().string();
   summary_.title = scene.title;
   summary_.exit_code = ExitCode::incomplete;
-  summary_.message = "the run has not come to its end: it goes on, or was killed; --resume goes on";
+  summary_.message = unfinished_message;
   summary_.machine = describe_machine();
   summary_.libraries = library_versions();
   summary_.effects = effects_of(scene, nullptr);
@@ -159,17 +160,19 @@ void RunRecord::keep_finished(const CurveResult& result) const {
 int RunRecord::run(const std::function<void()>& stages) {
   const PromptEnd promise;
   std::jthread watch([this](const std::stop_token& stop) { end_in_time(stop); });
+  const auto end_watch = [&] {
+    watch.request_stop();
+    if (watch.joinable()) watch.join();
+  };
   try {
     stages();
+    end_watch();
+    return finish();
   } catch (const std::exception& error) {
-    watch.request_stop();
-    watch.join();
+    end_watch();
     fail(exit_code_of(error), error.what());
     throw;
   }
-  watch.request_stop();
-  watch.join();
-  return finish();
 }
 
 void RunRecord::end_in_time(const std::stop_token& stop) {
@@ -197,6 +200,7 @@ void RunRecord::end_in_time(const std::stop_token& stop) {
   fail(code, message);
   if (overdue)
     std::cerr << "microslip: " << message << std::endl;  // nobody above is left to say it
+  place_.remove_staged();                                // other threads are writing there
   place_.unlock();
   std::_Exit(static_cast<int>(code));
 }
@@ -629,6 +633,7 @@ void RunRecord::fail(ExitCode code, const std::string& message) {
     }
   } catch (const std::exception& error) {
     progress_.error(error.what());  // the first error is the one to report
+    tell_failure_in_place(folder_ / "summary.json", code);
   }
 }
 

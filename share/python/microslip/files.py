@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import csv
+import errno
 import fcntl
 import json
 import math
@@ -18,10 +19,16 @@ from microslip.tables import package
 MARKS = ("", "peak", "fold", "optimum", "flat")
 MAY_LACK = ("amplitude_slope_m_per_Hz", "phase_slope_deg_per_Hz")  # an empty cell is NaN
 AGAIN = "the file is damaged; run the scene again"
+NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
+MORE_ROOM = "check free space and limits of file size (ulimit -f)"
 
 
 class RunError(Exception):
     """A file of a run is missing, cut off or not what the program wrote, or lacks what is asked: the message says it."""
+
+
+class RoomError(RunError, OSError):
+    """What is drawn of a run has no room: a full disk, a limit of file size."""
 
 
 def shown(path: str) -> str:
@@ -119,10 +126,19 @@ def trace_in(path: str, name: str) -> np.ndarray:
 
 
 def write_whole(path: str, content: bytes) -> None:
-    """A file of bytes, whole or not at all."""
-    with open(path + ".part", "wb") as file:
-        file.write(content)
-    os.replace(path + ".part", path)
+    """A file of bytes, whole or not at all. RoomError where it has no room."""
+    folder, name = os.path.split(path)
+    part = os.path.join(folder, f".{name}.{os.getpid()}.part")  # a run removes what a killed one leaves by this name
+    try:
+        with open(part, "wb") as file:
+            file.write(content)
+        os.replace(part, path)
+    except BaseException as error:
+        with contextlib.suppress(OSError):
+            os.unlink(part)
+        if isinstance(error, OSError) and error.errno in NO_ROOM:
+            raise RoomError(f"{shown(path)}: cannot be written: {error.strerror}; {MORE_ROOM}") from None
+        raise
 
 
 def column_in(cells: Sequence[tuple[int, str]], path: str, name: str) -> Any:

@@ -839,6 +839,37 @@ TEST_F(Program, ALimitOfTheFileSizeIsExitFour) {
   }
 }
 
+/// OpenBLAS asks for its buffers for ever where there is no room, in Python as well.
+TEST_F(Program, LittleAddressSpaceForPlotsIsNoHang) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "AddressSanitizer takes terabytes of address space";
+#endif
+  write(path("scene.toml"), scene_text);
+  for (const char* megabytes : {"200", "300"}) {
+    const std::string limit =
+        std::string("ulimit -v ") + megabytes + "000; " + with_plots + " timeout -s KILL 60";
+    const Outcome outcome = run("run scene.toml -q -j 2 -o out", limit);
+    EXPECT_TRUE(outcome.code == 0 || outcome.code == 4) << outcome.code << outcome.err;
+    if (outcome.code == 0) EXPECT_NE(outcome.err.find("not every plot"), std::string::npos);
+  }
+}
+
+/// What is drawn has no room: the curves have.
+TEST_F(Program, ALimitOfTheFileSizeThatPlotsMeetIsExitFour) {
+  write(path("scene.toml"), scene_text);
+  const Outcome outcome =
+      run("run scene.toml -q -o out",
+          std::string("bash -c 'ulimit -f 64; exec \"$0\" \"$@\"'") + " env " + with_plots);
+  EXPECT_EQ(outcome.code, 4) << outcome.err;
+  EXPECT_NE(outcome.err.find("ulimit -f"), std::string::npos) << outcome.err;
+  EXPECT_EQ(Json::parse(content_of(path("out/summary.json")))["exit_code"], 4);
+  EXPECT_TRUE(exists("out/curves/scale_1.csv"));
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(path("out"))) {
+    EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+    EXPECT_NE(entry.path().filename(), ".lock");
+  }
+}
+
 TEST_F(Program, AnInterruptedMesherLeavesNothingBehind) {
   write(path("scene.toml"),
         "[model]\nkind = \"blade\"\nelement_size = \"1.5 mm\"\n[material]\n"

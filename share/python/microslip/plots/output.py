@@ -8,11 +8,12 @@ import sys
 import traceback
 from typing import TYPE_CHECKING, Callable, Sequence
 
-from microslip.files import RunError, write_whole
+from microslip.files import MORE_ROOM, RoomError, RunError, write_whole
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+EXHAUSTED = 4  # exit code, as of the program
 # Neither the day nor the version of a library: the same run gives the same files.
 METADATA = {"svg": {"Date": None}, "png": {"Software": None}}
 
@@ -46,7 +47,8 @@ def save_as(figure: Figure, path: str) -> None:
 
 def run_shared(tasks: Sequence[Callable[[], object]]) -> bool:
     """Shares the figures out to as many processes as there are cores. Plain forks: they end by
-    themselves whatever happens to this process. False when one of them failed (it has said why)."""
+    themselves whatever happens to this process. False when one of them failed (it has said why); RoomError where a
+    figure had no room."""
     n_processes = min(len(os.sched_getaffinity(0)), len(tasks))
     children = []
     for first in range(n_processes):
@@ -59,8 +61,12 @@ def run_shared(tasks: Sequence[Callable[[], object]]) -> bool:
                 code = 0
             except RunError as damage:
                 print(damage, file=sys.stderr, flush=True)
+                code = EXHAUSTED if isinstance(damage, RoomError) else 1
             except BaseException:
                 traceback.print_exc()
             os._exit(code)
         children.append(child)
-    return all([os.waitpid(child, 0)[1] == 0 for child in children])
+    codes = [os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) for child in children]
+    if EXHAUSTED in codes:
+        raise RoomError(f"not every figure can be written; {MORE_ROOM}")
+    return not any(codes)

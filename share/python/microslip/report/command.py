@@ -7,7 +7,7 @@ import sys
 import warnings
 from typing import Optional
 
-from microslip.files import RunError
+from microslip.files import RoomError, RunError
 from microslip.report.page import write_page
 from microslip.results import Run, RunWarning
 
@@ -39,5 +39,5 @@ def report(folder: str, into: Optional[str] = None, summary: Optional[str] = Non
         write_report_page(folder, into, summary, cache)  # first: it is quick, and a run may be short of time
     except RunError as error:
         print(error, file=sys.stderr)
-        return 1
+        return 4 if isinstance(error, RoomError) else 1
     return draw_plots(folder, into, cache)
