@@ -443,13 +443,17 @@ double begun_seconds(const SceneDescription& scene, const CurveEffects& effects,
 
 double search_beside_folds(double n_folds) { return 1.0 + 2.0 * n_folds / frequencies_of_a_search; }
 
-double search_seconds(const SceneDescription& scene, const CurveEffects& effects, int n_starts) {
+double search_of_a_curve(const SceneDescription& scene, const CurveEffects& effects, int n_starts) {
   const bool one = is_single_frequency(scene);
   const double starts =
       n_starts * (one ? of_a_start : frequencies_of_a_search * of_a_start_beside_a_curve);
   const double followed = one && n_starts > 0 ? of_a_curve : 0.0;  // its own branch
   const Size size = size_of(scene, effects);
-  return n_curves(scene) * (starts + followed) * evaluation_seconds(effects, size);
+  return (starts + followed) * evaluation_seconds(effects, size);
+}
+
+double search_seconds(const SceneDescription& scene, const CurveEffects& effects, int n_starts) {
+  return n_curves(scene) * search_of_a_curve(scene, effects, n_starts);
 }
 
 }  // namespace microslip::pipelines

@@ -58,8 +58,12 @@ struct ResponseSeconds {
 /// Times as long a search takes beside a curve with so many folds: it looks on either side of each.
 [[nodiscard]] double search_beside_folds(double n_folds);
 
-/// A search for other solutions with every curve [s], where machine_slowness() is 1: whether it is
-/// made hangs on it, which no machine decides. @param n_starts  per frequency.
+/// A search for other solutions with a curve [s], where machine_slowness() is 1: whether it is made
+/// hangs on it, which no machine decides. @param n_starts  per frequency.
+[[nodiscard]] double search_of_a_curve(const SceneDescription& scene, const CurveEffects& effects,
+                                       int n_starts);
+
+/// With every curve.
 [[nodiscard]] double search_seconds(const SceneDescription& scene, const CurveEffects& effects,
                                     int n_starts);
 

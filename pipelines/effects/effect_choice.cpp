@@ -372,8 +372,8 @@ EffectDecision wear(const EffectFacts& facts) {
                          : "response.maps asks for no map to show it in");
 }
 
-bool is_short(double search, const SceneDescription& scene) {
-  return search <= short_search * static_cast<double>(curve_requests(scene).size());
+bool is_short_search(const SceneDescription& scene, bool both_directions, int n_starts) {
+  return search_of_a_curve(scene, curve_effects(scene, both_directions), n_starts) <= short_search;
 }
 
 EffectDecision coexistence(const EffectFacts& facts) {
@@ -398,19 +398,21 @@ EffectDecision coexistence(const EffectFacts& facts) {
   }
   if (facts.model == nullptr) return decided(undecided, later);
   if (!facts.reach) return decided(no, limits_alone);
-  const double seconds = seconds_of_search(facts);
-  if (*decision.indicator <= threshold) {
-    if (one || facts.reach->nearby <= threshold) {
-      return decided(no, fmt::format("in the linear limits no {} {}", resonance, in_reach));
-    }
-    if (!is_short(seconds, scene)) {
-      return decided(no, fmt::format("a resonance in the range {}: folds of its curve are "
-                                     "followed; branches that no sweep meets are not looked for, "
-                                     "which would take some {:.2g} s",
-                                     in_reach, seconds));
-    }
+  const bool leads_in = *decision.indicator > threshold;
+  if (!leads_in && (one || facts.reach->nearby <= threshold)) {
+    return decided(no, fmt::format("in the linear limits no {} {}", resonance, in_reach));
+  }
+  if (!leads_in) resonance = "resonance in the range";
+  if (!one && is_short_search(scene, facts.both_directions, starts_of_a_search)) {
     decision.indicator = facts.reach->nearby;
-    resonance = "resonance in the range";
+    return decided(yes,
+                   fmt::format("a {} {}: other solutions are looked for", resonance, in_reach));
+  }
+  const double seconds = seconds_of_search(facts);
+  if (!leads_in) {
+    return decided(no, fmt::format("a {} {}: folds of its curve are followed; branches that no "
+                                   "sweep meets are not looked for, which would take some {:.2g} s",
+                                   resonance, in_reach, seconds));
   }
   if (seconds > bearable_search) {
     return decided(
@@ -555,9 +557,8 @@ int likely_starts(const SceneDescription& scene, bool both_directions) {
   const int asked = asked_starts(scene);
   if (asked > 0) return asked;
   if (is_single_frequency(scene)) return starts_of_a_search;
-  const double all =
-      search_seconds(scene, curve_effects(scene, both_directions), starts_of_a_search);
-  return is_short(all, scene) ? starts_of_a_search : starts_beside_a_curve;
+  return is_short_search(scene, both_directions, starts_of_a_search) ? starts_of_a_search
+                                                                     : starts_beside_a_curve;
 }
 
 int search_starts(const SceneDescription& scene, const ReducedModel& model, double load) {
