@@ -1,14 +1,10 @@
 #include "fem/blas_threads.hpp"
 
-#include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
 
 #include <dlfcn.h>
-
-#include "fem/ranks.hpp"
 
 extern "C" void dtrsm_(const char* side, const char* triangle, const char* transposed,
                        const char* diagonal, const int* m, const int* n, const double* factor,
@@ -42,7 +38,7 @@ std::string second_word(const std::string& text) {
 }  // namespace
 
 void set_blas_threads(int n_ranks_here) {
-  constexpr int threads_of_one = 2;  // more gain little on meshes that one process can solve
+  constexpr int threads_of_one = 2;  // all that was timed (share/doc/costs.md)
   auto* set_threads = symbol<void(int)>("openblas_set_num_threads");
   if (set_threads == nullptr) return;
   set_threads(n_ranks_here > 1 || has_little_address_space() ? 1 : threads_of_one);
