@@ -1,13 +1,13 @@
 #include "pipelines/accuracy/given_mesh.hpp"
 
-#include "pipelines/structure/mesh_excess.hpp"
+#include "pipelines/structure/larger_elements.hpp"
 
 namespace microslip::pipelines {
 
 std::optional<RicherModel> without_mesh_excess(const ReducedModel& model,
                                                const SceneDescription& scene,
                                                const SolvedStructure& structure) {
-  const FrequencyExcess told = frequency_excess(structure.mesh, structure.modes, scene);
+  const FrequencyExcess& told = frequency_excess(structure, scene);
   if (told.modes.empty() || !told.is_whole) return std::nullopt;
   RicherModel without{"mesh", model};
   without.model.frequency *= 1.0 - told.excess.maxCoeff();

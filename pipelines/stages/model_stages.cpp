@@ -46,10 +46,10 @@ ReducedModel telling_model_of(const SceneDescription& scene, const SolvedStructu
 }
 
 /// Of a large mesh it takes seconds.
-MeshExcess telling_mesh_excess(const mesh::Mesh& mesh, const StructureModes& modes,
-                               const SceneDescription& scene, Progress& progress) {
+MeshExcess telling_mesh_excess(const SolvedStructure& structure, const SceneDescription& scene,
+                               Progress& progress) {
   const Progress::Part part = progress.part("jumps of stress between elements");
-  return mesh_excess(frequency_excess(mesh, modes, scene), scene);
+  return mesh_excess(frequency_excess(structure, scene), scene);
 }
 
 }  // namespace
@@ -84,10 +84,10 @@ StructurePointer solved_structure(const SceneDescription& scene, int cores, RunR
   if (!scene.modes.residual_note.empty()) record.progress().info(scene.modes.residual_note);
   record.keep_modes(mesh, *modes,
                     damping_ratios(scene.modes, modes->basis.frequency, modes->basis.n_attachment));
-  const MeshExcess excess = telling_mesh_excess(mesh, *modes, scene, record.progress());
+  SolvedStructure structure{std::move(mesh), std::move(*modes)};
+  const MeshExcess excess = telling_mesh_excess(structure, scene, record.progress());
   if (!excess.text.empty()) record.progress().info(excess.text);
   if (!excess.warning.empty()) record.progress().warning(excess.warning);
-  SolvedStructure structure{std::move(mesh), std::move(*modes)};
   if (const std::string text = extrapolate_modes(structure, scene, larger); !text.empty()) {
     record.progress().info(text);
   }

@@ -64,16 +64,21 @@ SolvedStructure on_larger_elements(const SceneDescription& scene, double factor,
 const SolvedStructure& on_larger_elements(const SceneDescription& scene,
                                           const SolvedStructure& structure, double factor,
                                           Eigen::Index n_modes) {
-  auto& known = structure.larger->known;
+  auto& known = structure.answers->larger;
   const std::pair place{factor, n_modes};
   const auto found = known.find(place);
   if (found != known.end()) return found->second;
   return known.emplace(place, on_larger_elements(scene, factor, n_modes)).first->second;
 }
 
-std::shared_ptr<LargerSolutions> no_larger_solutions() {
-  return std::make_shared<LargerSolutions>();
+const FrequencyExcess& frequency_excess(const SolvedStructure& structure,
+                                        const SceneDescription& scene) {
+  std::optional<FrequencyExcess>& known = structure.answers->excess;
+  if (!known) known = frequency_excess(structure.mesh, structure.modes, scene);
+  return *known;
 }
+
+std::shared_ptr<MeshAnswers> no_answers() { return std::make_shared<MeshAnswers>(); }
 
 LargerElements::LargerElements(const SceneDescription& scene, const mesh::Mesh& mesh, int cores,
                                std::filesystem::path program)

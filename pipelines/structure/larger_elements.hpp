@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "pipelines/description/scene_description.hpp"
+#include "pipelines/structure/mesh_excess.hpp"
 #include "pipelines/structure/solved_structure.hpp"
 #include "pipelines/structure/solver_process.hpp"
 
@@ -22,15 +23,20 @@ namespace microslip::pipelines {
 [[nodiscard]] SolvedStructure on_larger_elements(const SceneDescription& scene, double factor,
                                                  Eigen::Index n_modes);
 
-/// By factor and number of modes.
-struct LargerSolutions {
-  std::map<std::pair<double, Eigen::Index>, SolvedStructure> known{};
+/// What a structure was asked about its mesh: nothing is solved for twice.
+struct MeshAnswers {
+  std::map<std::pair<double, Eigen::Index>, SolvedStructure> larger{};  ///< by factor, n_modes
+  std::optional<FrequencyExcess> excess{};
 };
 
 /// The same, kept with the structure of the scene: who asks again does not solve again.
 [[nodiscard]] const SolvedStructure& on_larger_elements(const SceneDescription& scene,
                                                         const SolvedStructure& structure,
                                                         double factor, Eigen::Index n_modes);
+
+/// Of the modes that a structure has (mesh_excess.hpp), told once.
+[[nodiscard]] const FrequencyExcess& frequency_excess(const SolvedStructure& structure,
+                                                      const SceneDescription& scene);
 
 /// They are being solved beside as long as it lives, where that is allowed: by a thread that meshes
 /// (the mesher is a process already) and hands tasks to the other process.

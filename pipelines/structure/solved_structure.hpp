@@ -12,18 +12,18 @@
 namespace microslip::pipelines {
 
 struct CoarserMeshes;
-struct LargerSolutions;
+struct MeshAnswers;
 
-/// None solved yet.
-[[nodiscard]] std::shared_ptr<LargerSolutions> no_larger_solutions();
+/// None yet.
+[[nodiscard]] std::shared_ptr<MeshAnswers> no_answers();
 
 struct SolvedStructure {
   mesh::Mesh mesh;
   StructureModes modes;
   /// Those that the modes are extrapolated from (extrapolated_modes.hpp); nullptr: they are not.
   std::shared_ptr<const CoarserMeshes> coarser{};
-  /// Its like on larger elements, as far as somebody has asked for them (larger_elements.hpp).
-  std::shared_ptr<LargerSolutions> larger = no_larger_solutions();
+  /// What was asked about its mesh (larger_elements.hpp); copies share it.
+  std::shared_ptr<MeshAnswers> answers = no_answers();
 };
 
 /// Mesh and modes from the beginning. @param mesh_file  where the mesher writes.

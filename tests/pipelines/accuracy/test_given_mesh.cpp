@@ -73,7 +73,7 @@ TEST_F(GivenMesh, HasARowOfItsElements) {
     std::printf("%s: told %.2f %%, true %.2f %%\n", name, 100.0 * told, 100.0 * wrong);
     EXPECT_GT(wrong, 0.01) << name << ": elements of 12 mm are large";
     EXPECT_GT(told, wrong) << name;
-    EXPECT_LT(told, 4.0 * wrong) << name;
+    EXPECT_LT(told, 2.5 * wrong) << name;  // as far as test_stress_jumps lets it be
   }
 }
 
