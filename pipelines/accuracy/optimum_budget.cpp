@@ -247,11 +247,10 @@ CurveBudget optimum_budget(const ScenesAboutBest& about, const solver::Optimum& 
   if (!optimum.found) return {};
   std::vector<CurveBudget> budgets(n_about);
   Values amplitudes{};
-  const auto goes_on = [](const solver::ResponsePoint&) {
-    return !interrupt_requested() && !cut_short();
-  };
+  const auto is_over = [] { return interrupt_requested() || cut_short(); };
+  const auto goes_on = [&](const solver::ResponsePoint&) { return !is_over(); };
   in_parallel(n_about, jobs, [&](std::size_t i) {
-    if (!goes_on({})) return;
+    if (is_over()) return;
     const SceneDescription searched = with_harmonics_of(*about[i].scene, optimum);
     const CurveRequest request{optimum_name, about[i].load};
     const CurveResult curve =
@@ -262,7 +261,7 @@ CurveBudget optimum_budget(const ScenesAboutBest& about, const solver::Optimum& 
     const solver::ResponsePoint* peak = highest_peak(curve.curve);
     if (peak != nullptr) amplitudes[i] = peak->amplitude;
   });
-  if (!goes_on({})) return {};
+  if (is_over()) return {};
   const ValuesAboutBest values{about[0].value, about[1].value, about[2].value};
   if (!are_those_followed(values, amplitudes, optimum)) return {};
   const std::optional<double> other = frequency_of_crossing(optimum);

@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "pipelines/accuracy/optimum_budget.hpp"
 #include "pipelines/response/optimum_stage.hpp"
 #include "pipelines/stages/kept_results.hpp"
@@ -23,10 +25,14 @@
 namespace microslip::pipelines {
 namespace {
 
+std::string untold(const std::exception& error) {
+  return fmt::format("how wrong the best value is is not known, as beside it: {}", error.what());
+}
+
 /// Errors about the best value of another number than the preload: each of the three scenes has
-/// models of its own. No rows where a neighbour cannot be simulated.
+/// models of its own. No rows where a neighbour cannot be simulated, which is noted.
 CurveBudget budget_of_other(OptimumSearch& search, const OptimumRequest& request,
-                            const solver::Optimum& best, int jobs) {
+                            solver::Optimum& best, int jobs) {
   const auto values = values_about(best.best.parameter, request.range);
   if (!best.found || !values) return {};
   std::vector<SearchedScene> scenes;
@@ -37,9 +43,11 @@ CurveBudget budget_of_other(OptimumSearch& search, const OptimumRequest& request
       richer.push_back(richer_models(one.model, one.scene, one.structure.get()));
       if (cut_short()) return {};
     }
-  } catch (const RefusedError&) {
+  } catch (const RefusedError& error) {
+    best.notes.push_back(untold(error));
     return {};
-  } catch (const SceneError&) {
+  } catch (const SceneError& error) {
+    best.notes.push_back(untold(error));
     return {};
   }
   ScenesAboutBest about{};
@@ -49,7 +57,7 @@ CurveBudget budget_of_other(OptimumSearch& search, const OptimumRequest& request
   return optimum_budget(about, best, jobs);
 }
 
-CurveBudget budget_of(const Solution& solution, OptimumSearch& search, const solver::Optimum& best,
+CurveBudget budget_of(const Solution& solution, OptimumSearch& search, solver::Optimum& best,
                       int jobs) {
   const SceneDescription& scene = solution.scene;
   if (!scene.accuracy.error_budget || cut_short()) return {};
