@@ -49,9 +49,11 @@ int diagonal_of(ElementType type, const Eigen::MatrixX3d& nodes) {
   return static_cast<int>(std::ranges::min_element(lengths) - lengths.begin());
 }
 
-class Refinement {
+enum class Into { smaller, quadratic };
+
+class OtherElements {
  public:
-  explicit Refinement(const Mesh& mesh) : mesh_(mesh) {
+  OtherElements(const Mesh& mesh, Into into) : mesh_(mesh), into_(into) {
     for (Eigen::Index i = 0; i < mesh.n_nodes(); ++i) nodes_.emplace_back(mesh.nodes().row(i));
     for (const ElementBlock& block : mesh.elements()) keep_nodes(block);
     for (const ElementBlock& block : mesh.elements()) cut(block);
@@ -80,7 +82,9 @@ class Refinement {
     for (const std::string& name : mesh_.surface_names()) {
       std::vector<FaceBlock>& blocks = all[name];
       if (!mesh_.has_faces(name)) continue;
-      for (const FaceBlock& block : mesh_.surface(name).faces) blocks.push_back(cut(block));
+      for (const FaceBlock& block : mesh_.surface(name).faces) {
+        blocks.push_back(into_ == Into::smaller ? cut(block) : block);
+      }
     }
     return all;
   }
@@ -111,7 +115,9 @@ class Refinement {
   const ElementSplit& split_of(ElementType type, int diagonal) {
     const auto found = splits_.find({type, diagonal});
     if (found != splits_.end()) return found->second;
-    return splits_.emplace(std::pair{type, diagonal}, element_split(type, diagonal)).first->second;
+    ElementSplit split =
+        into_ == Into::smaller ? element_split(type, diagonal) : midside_split(type);
+    return splits_.emplace(std::pair{type, diagonal}, std::move(split)).first->second;
   }
 
   /// Before any element is cut: the middle of an edge is the node there, where one element has it.
@@ -205,20 +211,32 @@ class Refinement {
   }
 
   const Mesh& mesh_;
+  Into into_;
   std::vector<Eigen::RowVector3d> nodes_;
   std::unordered_map<NodeKey, Eigen::Index, NodeKeyHash> numbers_;
   std::map<std::pair<ElementType, int>, ElementSplit> splits_;
   std::map<ElementType, ElementList> lists_;
 };
 
-}  // namespace
-
-Mesh refined(const Mesh& mesh) {
-  const Refinement finer(mesh);
+Mesh other(const Mesh& mesh, Into into) {
+  const OtherElements finer(mesh, into);
   Mesh result(finer.nodes(), finer.elements(), finer.surfaces(), finer.node_sets(),
               mesh.n_repeated_elements());
   for (const std::string& remark : mesh.remarks()) result.add_remark(remark);
   return result;
+}
+
+}  // namespace
+
+Mesh refined(const Mesh& mesh) { return other(mesh, Into::smaller); }
+
+Mesh quadratic(const Mesh& mesh) {
+  return has_midside_nodes(mesh) ? mesh : other(mesh, Into::quadratic);
+}
+
+bool has_midside_nodes(const Mesh& mesh) {
+  return std::ranges::all_of(mesh.elements(),
+                             [](const ElementBlock& block) { return is_quadratic(block.type); });
 }
 
 }  // namespace microslip::mesh

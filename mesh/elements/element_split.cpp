@@ -177,15 +177,18 @@ std::vector<Eigen::Vector2d> lattice(bool is_triangle, int n) {
   return places;
 }
 
-}  // namespace
+Corners rows_of(const Eigen::MatrixX3d& nodes) {
+  Corners rows;
+  for (Eigen::Index a = 0; a < nodes.rows(); ++a) rows.emplace_back(nodes.row(a));
+  return rows;
+}
 
-ElementSplit element_split(ElementType type, int diagonal) {
+/// @param quadratic  the parts.
+ElementSplit split_into(const std::vector<Part>& parts, ElementType type, bool quadratic) {
   ElementSplit split;
-  Corners places;
-  const Eigen::MatrixX3d own = reference_nodes(type);
-  for (Eigen::Index a = 0; a < own.rows(); ++a) places.emplace_back(own.row(a));
-  for (const Part& part : parts_of(type, diagonal)) {
-    ElementSplit::Child child{of_order(part.kind, is_quadratic(type)), {}};
+  Corners places = rows_of(reference_nodes(type));
+  for (const Part& part : parts) {
+    ElementSplit::Child child{of_order(part.kind, quadratic), {}};
     for (const Eigen::Vector3d& node : nodes_of(part, child.type)) {
       child.points.push_back(number_of(node, places));
     }
@@ -202,6 +205,15 @@ ElementSplit element_split(ElementType type, int diagonal) {
   return split;
 }
 
+}  // namespace
+
+ElementSplit element_split(ElementType type, int diagonal) {
+  return split_into(parts_of(type, diagonal), type, is_quadratic(type));
+}
+
+ElementSplit midside_split(ElementType type) {
+  return split_into({{solid(type), rows_of(reference_nodes(linear(type)))}}, type, true);
+}
 FaceSplit face_split(FaceType type) {
   const int n = n_corners(type);
   const FaceType with_corners = n == 3 ? FaceType::tri3 : FaceType::quad4;

@@ -39,6 +39,9 @@ struct ElementSplit {
 ///                  that of the opposite one: 0, 1 or 2. Else 0.
 [[nodiscard]] ElementSplit element_split(ElementType type, int diagonal);
 
+/// One element that is the given one with nodes in the middle of its edges.
+[[nodiscard]] ElementSplit midside_split(ElementType type);
+
 /// The same of a face, as far as its points go.
 struct FaceSplit {
   std::vector<CornerShares> shares;        ///< of each point

@@ -73,6 +73,54 @@ TEST(RefinedMesh, KeepsTheNodesAndMakesOneAtEachPlace) {
   EXPECT_EQ(refined(quadratic).n_nodes(), alike.n_nodes());
 }
 
+Mesh with_set(const Mesh& mesh, const std::vector<Eigen::Index>& nodes) {
+  return {mesh.nodes(), mesh.elements(), {}, {{"set", nodes}}};
+}
+
+std::vector<Eigen::Index> nodes_where(const Mesh& mesh, bool (*is_there)(Eigen::Vector3d)) {
+  std::vector<Eigen::Index> nodes;
+  for (Eigen::Index i = 0; i < mesh.n_nodes(); ++i) {
+    if (is_there(mesh.nodes().row(i))) nodes.push_back(i);
+  }
+  return nodes;
+}
+
+// As gmsh and this project number quadratic elements: one node on each edge, the given ones first.
+TEST(QuadraticMesh, IsTheSameBodyWithANodeOnEachEdge) {
+  for (const ElementType type : all_element_types) {
+    SCOPED_TRACE(name(type));
+    const Mesh mesh = test::box_mesh(type, distorted_grid);
+    const Mesh finer = quadratic(mesh);
+    EXPECT_TRUE(has_midside_nodes(finer));
+    EXPECT_EQ(has_midside_nodes(mesh), is_quadratic(type));
+    EXPECT_EQ(finer.n_elements(), mesh.n_elements());
+    EXPECT_EQ(finer.nodes().topRows(mesh.n_nodes()), mesh.nodes());
+    EXPECT_NEAR(finer.volume(), mesh.volume(), 1e-12 * mesh.volume());
+    EXPECT_EQ(finer.surface_names(), mesh.surface_names());
+    for (const std::string& surface : mesh.surface_names()) {
+      EXPECT_NEAR(finer.surface(surface).area, mesh.surface(surface).area, 1e-12) << surface;
+    }
+  }
+  const test::BoxGrid grid{{1.0, 1.0, 1.0}, {2, 3, 2}, {}};
+  EXPECT_EQ(quadratic(test::box_mesh(ElementType::hex8, grid)).n_nodes(),
+            test::box_mesh(ElementType::hex20, grid).n_nodes());
+}
+
+TEST(QuadraticMesh, CompletesSetsOfNodesOnFacesAndEdges) {
+  bool (*const places[])(Eigen::Vector3d) = {
+      [](Eigen::Vector3d x) { return x.x() == 0.0; },
+      [](Eigen::Vector3d x) { return x.x() == 0.0 && x.z() == 1.0; },
+      [](Eigen::Vector3d x) { return x.norm() == 0.0; },
+  };
+  for (const ElementType type : {ElementType::tet4, ElementType::hex8, ElementType::wedge6}) {
+    const Mesh mesh = test::box_mesh(type, {{1.0, 1.0, 1.0}, {2, 2, 2}, {}});
+    for (const auto is_there : places) {
+      const Mesh finer = quadratic(with_set(mesh, nodes_where(mesh, is_there)));
+      EXPECT_EQ(finer.node_set("set"), nodes_where(finer, is_there)) << name(type);
+    }
+  }
+}
+
 // A quarter of a ring in one element: the nodes that join lie on its parabola, not on chords.
 TEST(RefinedMesh, IsCurvedAsItsElementsAre) {
   const auto ring = [](const Eigen::Vector3d& x) {
@@ -85,18 +133,6 @@ TEST(RefinedMesh, IsCurvedAsItsElementsAre) {
   for (const Eigen::Index node : finer.surface("x1").nodes) {
     EXPECT_NEAR(finer.nodes().row(node).head<2>().norm(), 3.0, 2e-3);
   }
-}
-
-Mesh with_set(const Mesh& mesh, const std::vector<Eigen::Index>& nodes) {
-  return {mesh.nodes(), mesh.elements(), {}, {{"set", nodes}}};
-}
-
-std::vector<Eigen::Index> nodes_where(const Mesh& mesh, bool (*is_there)(Eigen::Vector3d)) {
-  std::vector<Eigen::Index> nodes;
-  for (Eigen::Index i = 0; i < mesh.n_nodes(); ++i) {
-    if (is_there(mesh.nodes().row(i))) nodes.push_back(i);
-  }
-  return nodes;
 }
 
 // What holds a face or an edge holds all of it, and nothing beside.
