@@ -68,7 +68,7 @@ std::optional<RicherModel> coarser_model(const ReducedModel& model, const SceneD
 
 std::optional<RicherModel> coarser_mesh(const ReducedModel& model, const SceneDescription& scene,
                                         const SolvedStructure& structure, std::string& note) {
-  if (!element_size_of(scene)) return std::nullopt;
+  if (largest_factor(scene) < 2.0) return std::nullopt;
   try {
     if (structure.coarser) {
       return coarser_model(model, scene, structure.coarser->twice,
@@ -76,10 +76,13 @@ std::optional<RicherModel> coarser_mesh(const ReducedModel& model, const SceneDe
     }
     const SolvedStructure& twice =
         on_larger_elements(scene, structure, 2.0, model.frequency.size() - model.n_attachment);
-    const SolvedStructure& four_times =
-        on_larger_elements(scene, structure, 4.0, scene.settings.basis.n_modes);
-    const double ratio = observed_ratio(model.frequency[0], twice.modes.basis.frequency[0],
-                                        four_times.modes.basis.frequency[0]);
+    double ratio = ratio_of_edges;  // of a mesh file whose elements are cut once
+    if (largest_factor(scene) >= 4.0) {
+      const SolvedStructure& four_times =
+          on_larger_elements(scene, structure, 4.0, scene.settings.basis.n_modes);
+      ratio = observed_ratio(model.frequency[0], twice.modes.basis.frequency[0],
+                             four_times.modes.basis.frequency[0]);
+    }
     const double refinement = refinement_between(structure.mesh, twice.mesh, scene);
     if (refinement < least_refinement) {
       note = "the error of the mesh is not known: elements of twice the size give the same mesh";

@@ -13,14 +13,12 @@
 #include <fmt/format.h>
 
 #include "fem/petsc_error.hpp"
-#include "mesh/refined_mesh.hpp"
 #include "pipelines/accuracy/error_budget.hpp"
 #include "pipelines/description/curve_request.hpp"
 #include "pipelines/response/curve_requirements.hpp"
 #include "pipelines/response/harmonics_check.hpp"
 #include "pipelines/response/highest_peak.hpp"
 #include "pipelines/response/response_stage.hpp"
-#include "pipelines/structure/solver_memory.hpp"
 #include "pipelines/system/interrupt.hpp"
 #include "pipelines/system/scene_error.hpp"
 #include "pipelines/system/temporary_folder.hpp"
@@ -71,18 +69,9 @@ Seconds timed(Repetitions& again, const Work& work) {
   return {median(wall), median(cpu), static_cast<int>(wall.size())};
 }
 
-/// Points that have coordinates stay the nodes that the mesh has there.
-mesh::Mesh with_elements_cut(mesh::Mesh mesh, const SceneDescription& scene, int n_cuts) {
-  for (int i = 0; i < n_cuts; ++i) {
-    require_memory_when_cut(mesh, scene.settings.basis.solver);
-    mesh = mesh::refined(mesh);
-  }
-  return mesh;
-}
-
 TimedStructure structure_of(const Rung& rung, const TimedStructure& base, Repetitions& again) {
   if (base.solved == nullptr || (rung.same_basis && rung.same_mesh)) return base;
-  if (!rung.same_mesh) return timed_structure(rung.scene, again, rung.n_cuts);
+  if (!rung.same_mesh) return timed_structure(rung.scene, again);
   TimedStructure result;
   const Seconds modes = timed(again, [&] {
     result.solved = std::make_shared<const SolvedStructure>(
@@ -222,7 +211,7 @@ bool Repetitions::take(double seconds) {
   return true;
 }
 
-TimedStructure timed_structure(const SceneDescription& scene, Repetitions& again, int n_cuts) {
+TimedStructure timed_structure(const SceneDescription& scene, Repetitions& again) {
   TimedStructure result;
   if (std::holds_alternative<ModalModel>(scene.model)) {
     result.runs = static_cast<int>(most_runs);
@@ -231,7 +220,7 @@ TimedStructure timed_structure(const SceneDescription& scene, Repetitions& again
   std::optional<mesh::Mesh> mesh;
   const Seconds meshing = timed(again, [&] {
     const TemporaryFolder folder;
-    mesh = with_elements_cut(obtain_mesh(scene, folder.path() / "mesh.msh"), scene, n_cuts);
+    mesh = obtain_mesh(scene, folder.path() / "mesh.msh");
     check_names(*mesh, scene);
   });
   StructureModes modes;

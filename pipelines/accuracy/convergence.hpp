@@ -50,10 +50,8 @@ class Repetitions {
   double left_;
 };
 
-/// @param n_cuts  of each element of the mesh along each edge.
 /// @return  nothing solved for kinds without a mesh. @throws as solved_structure().
-[[nodiscard]] TimedStructure timed_structure(const SceneDescription& scene, Repetitions& again,
-                                             int n_cuts = 0);
+[[nodiscard]] TimedStructure timed_structure(const SceneDescription& scene, Repetitions& again);
 
 /// Told on the way.
 struct ClimbObserver {

@@ -1,6 +1,7 @@
 #include "pipelines/accuracy/ladders.hpp"
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <utility>
 #include <variant>
@@ -37,13 +38,19 @@ Ladder of_element_size(const SceneDescription& scene, const std::vector<double>&
   return ladder;
 }
 
-/// One without a size: of two rungs no order is told.
+/// Sizes are relative to the elements of the file.
 Ladder of_refinement(const SceneDescription& scene) {
+  constexpr std::array names{"given", "halved", "quartered", "eighth", "sixteenth"};
   Ladder ladder{refinement_knob, "mesh", {}};
-  ladder.rungs.push_back(rung_of(scene, "given", 0.0));
-  ladder.rungs.push_back(rung_of(scene, "halved", 0.0));
-  ladder.rungs.back().n_cuts = 1;
-  ladder.rungs.back().same_mesh = ladder.rungs.back().same_basis = false;
+  const int own = std::get<MeshFileModel>(scene.model).refinement;
+  double size = 1.0;
+  for (int cuts = 0; cuts <= own + 1; ++cuts, size *= 0.5) {
+    const char* name = names.at(static_cast<std::size_t>(cuts));
+    ladder.rungs.push_back(rung(scene, name, size, [cuts](SceneDescription& other) {
+      std::get<MeshFileModel>(other.model).refinement = cuts;
+    }));
+    ladder.rungs.back().same_mesh = ladder.rungs.back().same_basis = cuts == own;
+  }
   return ladder;
 }
 

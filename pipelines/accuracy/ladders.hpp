@@ -16,7 +16,6 @@ struct Rung {
   SceneDescription scene;
   bool same_basis = true;  ///< the modes of the scene at hand serve
   bool same_mesh = true;   ///< its mesh does
-  int n_cuts = 0;          ///< of each element along each edge (mesh/refined_mesh.hpp)
   /// Integrated in time at the highest peak of each curve, on from the motion there.
   bool in_time = false;
   std::string refused{};  ///< why the scene cannot be so; empty: it can
@@ -30,7 +29,7 @@ struct Ladder {
   std::vector<Rung> rungs;
 };
 
-/// Of a mesh file: as it is, and with each element cut once along each edge.
+/// Of a mesh file: from as it is to each element cut once more along each edge than the scene says.
 inline constexpr const char* refinement_knob = "refinement";
 
 /// Of a geometry that is meshed here.

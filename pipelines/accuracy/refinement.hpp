@@ -35,7 +35,8 @@ struct SpentSeconds {
   std::optional<double> inexact_curves{};
   std::optional<double> inexact_errors{};
   bool extrapolated = false;  ///< the modes: the error of the mesh falls faster
-  int jobs = 1;               ///< cores that share curves and their errors
+  bool linear_elements = false;
+  int jobs = 1;  ///< cores that share curves and their errors
   /// By the clock: maps and the search for a best value, with the curves as they are.
   double after = 0.0;
   double available = std::numeric_limits<double>::infinity();  ///< time there is for all of it
@@ -48,13 +49,17 @@ struct SpentSeconds {
 /// A linear limit, or within the tolerance.
 [[nodiscard]] bool is_exact(const CurveBudget& budget, const AccuracyRequest& accuracy);
 
+/// The error of a mesh of a file is in no bar, and other elements of it would tell it.
+[[nodiscard]] bool has_mesh_to_tell(const SceneDescription& scene,
+                                    const std::vector<CurveBudget>& budgets);
+
 /// Sources that one of the bars leaves out, named once.
 [[nodiscard]] std::vector<std::string> not_in_bars(const std::vector<CurveBudget>& budgets);
 
 /// Of all ways to refine the sources, alone and together, the cheapest that should bring every bar
 /// below the tolerance: errors of cells fall as their number grows, of the mesh with its size, of
 /// fit and directions altogether, of harmonics to the tolerance of their choice. Where none does,
-/// the cheapest that comes as near as can be.
+/// the cheapest that comes as near as can be. A mesh whose error is not known is refined until it is.
 /// @return empty: nothing worth a round can be refined; `left` names sources that cannot,
 ///         though they matter.
 [[nodiscard]] std::optional<Refinement> refinement(const SceneDescription& scene,

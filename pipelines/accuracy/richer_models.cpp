@@ -139,7 +139,7 @@ void add_bar(const ReducedModel& model, const SceneDescription& scene,
 
 std::optional<RicherModel> other_mesh(const ReducedModel& model, const SceneDescription& scene,
                                       const SolvedStructure& structure, std::string& note) {
-  if (element_size_of(scene)) return coarser_mesh(model, scene, structure, note);
+  if (largest_factor(scene) >= 2.0) return coarser_mesh(model, scene, structure, note);
   return without_mesh_excess(model, scene, structure);
 }
 

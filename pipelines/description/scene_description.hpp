@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <map>
@@ -82,6 +83,8 @@ struct MeshFileModel {
   std::optional<int> order;             ///< of its elements as the scene says; the file counts
   std::optional<ModesFile> modes;       ///< none: the modes are solved for
   std::optional<MatrixFiles> matrices;  ///< none: K and M are those of the finite elements
+  int refinement = 0;  ///< times that each element is cut along each edge (mesh/refined_mesh.hpp)
+  bool midside_nodes = false;  ///< linear elements get some, and are quadratic
 };
 
 using contact::LoadMeasure;
@@ -282,7 +285,22 @@ struct SceneDescription {
   return std::nullopt;
 }
 
+/// Whether elements of a scene's file may be cut or get more nodes; else modes belong to them.
+[[nodiscard]] inline bool is_mesh_refined_here(const SceneDescription& scene) {
+  const auto* file = std::get_if<MeshFileModel>(&scene.model);
+  return file != nullptr && !file->modes && !file->matrices;
+}
+
+/// So many times as large as those of the scene elements can be made here: elements that the mesh of
+/// a file was cut into have larger ones.
+[[nodiscard]] inline double largest_factor(const SceneDescription& scene) {
+  if (element_size_of(scene)) return std::numeric_limits<double>::infinity();
+  const auto* file = std::get_if<MeshFileModel>(&scene.model);
+  return file != nullptr ? std::ldexp(1.0, file->refinement) : 1.0;
+}
+
 /// The same scene on elements so many times as large.
+/// @param factor  of a mesh file a power of two, up to largest_factor().
 [[nodiscard]] inline SceneDescription with_elements_scaled(SceneDescription scene, double factor) {
   if (auto* blade = std::get_if<BladeModel>(&scene.model)) {
     blade->sizes.element_size *= factor;
@@ -297,6 +315,9 @@ struct SceneDescription {
         }
       }
     }
+  }
+  if (auto* file = std::get_if<MeshFileModel>(&scene.model)) {
+    file->refinement -= static_cast<int>(std::lround(std::log2(factor)));
   }
   return scene;
 }

@@ -67,7 +67,7 @@ bool any_of_units(std::span<const Question> questions, const Facts& facts) {
 /// The file counts. @return "": the scene says the same, or nothing
 std::string order_question(const SceneDescription& scene, const mesh::Mesh& mesh) {
   const auto* file = std::get_if<MeshFileModel>(&scene.model);
-  if (file == nullptr || !file->order) return {};
+  if (file == nullptr || !file->order || file->midside_nodes) return {};
   const mesh::ElementType type = mesh.elements().front().type;
   const int order = mesh::is_quadratic(type) ? 2 : 1;
   if (order == *file->order) return {};

@@ -452,8 +452,8 @@ SceneDescription read_again(const SceneDescription& scene, const std::string& ke
 /// How finely a scene is solved, not what it is.
 bool is_setting(const std::string& key) {
   return key.starts_with("response.") || key == "model.element_size" || key == "model.edge_size" ||
-         key == "modes.count" || key.ends_with(".points") || key.ends_with(".fit") ||
-         key.ends_with("_degree");
+         key == "model.refinement" || key == "modes.count" || key.ends_with(".points") ||
+         key.ends_with(".fit") || key.ends_with("_degree");
 }
 
 /// What an accuracy asked for has refined since the scene was read stays.
@@ -467,6 +467,12 @@ void keep_refinement(SceneDescription& other, const SceneDescription& scene) {
   if (step != nullptr && other_step != nullptr) {
     other_step->element_size = step->element_size;
     other_step->faces = step->faces;
+  }
+  const auto* file = std::get_if<MeshFileModel>(&scene.model);
+  auto* other_file = std::get_if<MeshFileModel>(&other.model);
+  if (file != nullptr && other_file != nullptr) {
+    other_file->refinement = file->refinement;
+    other_file->midside_nodes = file->midside_nodes;
   }
 }
 

@@ -168,6 +168,9 @@ StepModel read_step_file(SectionReader s, const std::filesystem::path& folder) {
 MeshFileModel read_mesh_file(SectionReader s, const std::filesystem::path& folder) {
   MeshFileModel model;
   if (s.given("order")) model.order = s.integer("order");
+  model.refinement = s.integer("refinement");
+  constexpr std::array<std::string_view, 2> choices{"on", "off"};
+  model.midside_nodes = s.word("midside_nodes", choices) == "on";
   require_mesh_format(s, "file", s.text("file"));
   model.file = absolute_file(s, "file", folder);
   model.place = s.place("file");

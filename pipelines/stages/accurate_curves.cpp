@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "mesh/refined_mesh.hpp"
 #include "pipelines/accuracy/refinement.hpp"
 #include "pipelines/stages/missed_effects.hpp"
 #include "pipelines/stages/solved_again.hpp"
@@ -46,6 +47,7 @@ SpentSeconds spent_on(const Solution& solution, const RunOptions& options) {
   if (solution.structure) {
     spent.structure = seconds_of_structure(solution.structure->modes);
     spent.extrapolated = solution.structure->coarser != nullptr;
+    spent.linear_elements = !mesh::has_midside_nodes(solution.structure->mesh);
   }
   double inexact_curves = 0.0;
   double inexact_errors = 0.0;
@@ -77,7 +79,8 @@ std::optional<SolvedAgain> refined(const Solution& before, const Refinement& ste
   constexpr double of_coarse_mesh = 1.5;
   const bool has_time = !std::isfinite(before.scene.accuracy.budget);
   const double most = (step.new_mesh && has_time ? of_coarse_mesh : 1.0) * bar_of(before);
-  if (round && bar_of(round->solution) > most) {
+  const bool told_less = has_mesh_to_tell(before.scene, before.budgets);
+  if (round && !told_less && bar_of(round->solution) > most) {
     obstacle = "the errors are larger then";
     return std::nullopt;
   }
@@ -158,7 +161,8 @@ void refine_to_tolerance(Solution& solution, const RunOptions& options, RunRecor
   bool was_lost = false;  // a bar, with chosen harmonics
   std::string missing = "more rounds of refinement would be needed";
   for (int i = 0; i < most_rounds && has_budgets(solution); ++i) {
-    if (accuracy.reached <= accuracy.asked) break;
+    const bool lacks_mesh = has_mesh_to_tell(solution.scene, solution.budgets);
+    if (accuracy.reached <= accuracy.asked && !lacks_mesh) break;
     std::string left;
     const SpentSeconds spent = spent_on(solution, options);
     const auto next =
@@ -198,7 +202,9 @@ void refine_to_tolerance(Solution& solution, const RunOptions& options, RunRecor
   accuracy.out_of_time = !met && was_cut_short();
   const bool lacks_basis =
       std::ranges::find(accuracy.not_known, "basis") != accuracy.not_known.end();
-  if (met && lacks_basis) {
+  if (met && has_mesh_to_tell(solution.scene, solution.budgets)) {
+    record.progress().warning(fmt::format("{}; {}", reached_text(accuracy), missing));
+  } else if (met && lacks_basis) {
     record.progress().warning(
         fmt::format("{}; what more modes do is not known{}", reached_text(accuracy),
                     solution.scene.settings.basis.residual == ResidualKind::attachment

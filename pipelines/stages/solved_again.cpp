@@ -185,8 +185,10 @@ void keep_solved_again(const SolvedAgain& round, bool new_mesh, RunRecord& recor
   const Solution& now = round.solution;
   record.begin_again();
   if (new_mesh) {
-    std::filesystem::copy_file(round.mesh_file(), record.mesh_file(),
-                               std::filesystem::copy_options::overwrite_existing);
+    if (element_size_of(now.scene)) {
+      std::filesystem::copy_file(round.mesh_file(), record.mesh_file(),
+                                 std::filesystem::copy_options::overwrite_existing);
+    }
     record.keep_mesh(now.structure->mesh, now.scene.material.density);
     const StructureModes& modes = now.structure->modes;
     record.keep_modes(

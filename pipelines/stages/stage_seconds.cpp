@@ -44,7 +44,7 @@ double cores_in_use(const SceneDescription& scene, int jobs) {
 }  // namespace
 
 double coarser_meshes_seconds(double degrees_of_freedom, const SceneDescription& scene) {
-  if (!scene.accuracy.error_budget || !element_size_of(scene)) return 0.0;
+  if (!scene.accuracy.error_budget || largest_factor(scene) < 2.0) return 0.0;
   if (in_time(scene) || only_limits(scene)) return 0.0;
   if (is_extrapolated(scene)) return 0.0;  // they are solved with the modes
   return larger_elements_seconds(degrees_of_freedom, scene);

@@ -25,9 +25,6 @@ namespace {
 
 using Interpolation = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-// 2^p at re-entrant edges of 270°: stresses grow there as distance^(λ − 1), λ = 0.5445 (Williams,
-// J. Appl. Mech. 19 (1952) 526), frequencies err by h^2λ.
-constexpr double ratio_of_edges = 2.127;
 // Of coarse meshes other parts of the error show, which fall faster; the edges have the last word.
 constexpr double without_edges = 5.66;  // 2^2.5
 constexpr double highest_ratio = 16.0;  // of quadratic elements; what shows more is an accident
@@ -236,18 +233,28 @@ std::string too_long(const mesh::Mesh& mesh, const SceneDescription& scene) {
       seconds, left);
 }
 
-std::string text_of(double size, const ThreeFrequencies& first) {
-  return fmt::format(
-      "first frequency {:.6g} Hz on elements of {:.3g} mm, {:.6g} on {:.3g} mm, {:.6g} on {:.3g} "
-      "mm",
-      first.fine / turn, 1e3 * size, first.coarse / turn, 2e3 * size, first.coarsest / turn,
-      4e3 * size);
+/// Elements so many times as large as those of the scene: "of 3 mm", "cut twice".
+std::string elements_text(const SceneDescription& scene, double factor) {
+  if (const auto size = element_size_of(scene)) {
+    return fmt::format("of {:.3g} mm", 1e3 * factor * *size);
+  }
+  constexpr std::array cut{"as the file has them", "cut once", "cut twice"};
+  const SceneDescription larger = with_elements_scaled(scene, factor);
+  const auto n = static_cast<std::size_t>(std::get<MeshFileModel>(larger.model).refinement);
+  return n < cut.size() ? cut[n] : fmt::format("cut {} times", n);
+}
+
+std::string text_of(const SceneDescription& scene, const ThreeFrequencies& first) {
+  return fmt::format("first frequency {:.6g} Hz on elements {}, {:.6g} {}, {:.6g} {}",
+                     first.fine / turn, elements_text(scene, 1.0), first.coarse / turn,
+                     elements_text(scene, 2.0), first.coarsest / turn, elements_text(scene, 4.0));
 }
 
 }  // namespace
 
 bool is_extrapolated(const SceneDescription& scene) {
-  return scene.accuracy.tolerance > 0.0 && scene.accuracy.extrapolation && element_size_of(scene);
+  return scene.accuracy.tolerance > 0.0 && scene.accuracy.extrapolation &&
+         largest_factor(scene) >= 4.0;
 }
 
 double observed_ratio(double fine, double coarse, double coarsest) {
@@ -260,6 +267,7 @@ double refinement_between(const mesh::Mesh& fine, const mesh::Mesh& coarse,
                           const SceneDescription& scene) {
   const auto* blade = std::get_if<BladeModel>(&scene.model);
   if (blade != nullptr && blade->sizes.edge_size) return 2.0;
+  if (std::holds_alternative<MeshFileModel>(scene.model)) return 2.0;  // each element cut
   const double nodes = static_cast<double>(fine.n_nodes()) / static_cast<double>(coarse.n_nodes());
   return std::clamp(std::sqrt(nodes), 1.0, 2.0);
 }
@@ -281,7 +289,7 @@ std::string extrapolate_modes(SolvedStructure& structure, const SceneDescription
     const SolvedStructure four_times = larger.four_times(basis.n_free());
     const ThreeFrequencies first{basis.frequency[0], coarser->twice.modes.basis.frequency[0],
                                  four_times.modes.basis.frequency[0]};
-    const std::string text = text_of(*element_size_of(scene), first);
+    const std::string text = text_of(scene, first);
     if (std::string same = hardly_differ(structure.mesh, coarser->twice.mesh, scene);
         !same.empty()) {
       return text + same;

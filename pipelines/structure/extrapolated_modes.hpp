@@ -41,6 +41,10 @@ struct CoarserMeshes {
 /// `accuracy.extrapolation` is off.
 [[nodiscard]] bool is_extrapolated(const SceneDescription& scene);
 
+/// 2^p at re-entrant edges of 270°: stresses grow there as distance^(λ − 1), λ = 0.5445 (Williams,
+/// J. Appl. Mech. 19 (1952) 526), frequencies err by h^2λ.
+inline constexpr double ratio_of_edges = 2.127;
+
 /// 2^p = (ω_4h − ω_2h) / (ω_2h − ω_h) of three meshes, between 2^2.5 and 16 (smooth fields,
 /// quadratic elements). Else it is that of re-entrant edges, h^1.09: meshes show the rate of the
 /// coarsest then, or an accident, which is not that of what is left on the finest.

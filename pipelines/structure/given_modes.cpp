@@ -15,6 +15,7 @@
 
 #include "fem/modal_mass.hpp"
 #include "mesh/element_type.hpp"
+#include "mesh/refined_mesh.hpp"
 #include "pipelines/import/conversion.hpp"
 #include "pipelines/import/node_rows.hpp"
 #include "pipelines/system/mesh_format.hpp"
@@ -85,12 +86,6 @@ void check_places(const mesh::Mesh& mesh, const ModesOfFile& read, const Eigen::
   }
 }
 
-bool is_quadratic(const mesh::Mesh& mesh) {
-  return std::ranges::all_of(mesh.elements(), [](const mesh::ElementBlock& block) {
-    return mesh::is_quadratic(block.type);
-  });
-}
-
 /// Young's modulus that frequency and strain energy of each mode tell: E = ω² φᵀMφ / (φᵀKφ for E =
 /// 1). One of all modes, whatever they are scaled by. Linear elements of other codes are softer
 /// than ours: nothing is told of them. @param mass  φᵀMφ.
@@ -99,7 +94,7 @@ void check_stiffness(const mesh::Mesh& mesh, const SceneDescription& scene,
   constexpr double poissons_ratio = 0.3;  // of another one the moduli move by some percent together
   const Eigen::Index n_rigid = modes.basis.n_rigid_body;
   const Eigen::Index n = modes.basis.n_free() - n_rigid;
-  if (n < 1 || !is_quadratic(mesh)) return;
+  if (n < 1 || !mesh::has_midside_nodes(mesh)) return;
   const Eigen::VectorXd unit_stiffness =
       fem::modal_stiffness(mesh, {1.0, poissons_ratio, scene.material.density},
                            modes.basis.shapes.middleCols(n_rigid, n));

@@ -11,6 +11,7 @@
 #include <fmt/ranges.h>
 
 #include "fem/stress_jumps.hpp"
+#include "mesh/refined_mesh.hpp"
 #include "pipelines/text/effect_table.hpp"
 
 namespace microslip::pipelines {
@@ -21,7 +22,7 @@ constexpr std::ptrdiff_t most_told = 4;  // modes that are told: each takes as l
 
 bool is_told(const SceneDescription& scene, const StructureModes& modes) {
   const auto* file = std::get_if<MeshFileModel>(&scene.model);
-  if (file == nullptr || file->modes || file->matrices) return false;
+  if (file == nullptr || file->modes || file->matrices || file->refinement > 0) return false;
   return !scene.rotation && modes.basis.n_free() > modes.basis.n_rigid_body;
 }
 
@@ -44,12 +45,6 @@ std::vector<Eigen::Index> modes_of_range(const SceneDescription& scene,
   return in_range;
 }
 
-bool are_quadratic(const mesh::Mesh& mesh) {
-  return std::ranges::all_of(mesh.elements(), [](const mesh::ElementBlock& block) {
-    return mesh::is_quadratic(block.type);
-  });
-}
-
 }  // namespace
 
 FrequencyExcess frequency_excess(const mesh::Mesh& mesh, const StructureModes& modes,
@@ -59,7 +54,7 @@ FrequencyExcess frequency_excess(const mesh::Mesh& mesh, const StructureModes& m
   told.modes = modes_of_range(scene, modes);
   told.excess =
       fem::frequency_excess(mesh, scene.material, modes.basis.shapes(Eigen::all, told.modes));
-  told.is_whole = are_quadratic(mesh);
+  told.is_whole = mesh::has_midside_nodes(mesh);
   return told;
 }
 
@@ -76,13 +71,14 @@ MeshExcess mesh_excess(const FrequencyExcess& excess, const SceneDescription& sc
   told.text = fmt::format(
       "elements: by the jumps of stress between them natural frequencies are too high by some {}",
       fmt::join(each, ", "));
-  const double limit = scene.accuracy.tolerance > 0.0 ? scene.accuracy.tolerance : worth_a_warning;
-  if (excess.excess.maxCoeff() <= limit) return told;
+  const bool is_refined = scene.accuracy.tolerance > 0.0 && excess.is_whole;
+  if (is_refined || excess.excess.maxCoeff() <= worth_a_warning) return told;
   told.warning = fmt::format(
       "model.file: its elements put natural frequencies too high by up to some {:.2g} %{}, and "
       "peaks with them{}: take {}",
       percent * excess.excess.maxCoeff(), at_least, excess.is_whole ? "" : ", which is in no bar",
-      excess.is_whole ? "smaller ones" : "quadratic ones");
+      excess.is_whole ? "smaller ones, or model.refinement = 1"
+                      : "quadratic ones, or model.midside_nodes = \"on\"");
   return told;
 }
 

@@ -32,7 +32,7 @@ struct FrequencyExcess {
 struct MeshExcess {
   std::string
       text;  ///< of the modes up to the end of the frequency range, or the first; "": not told
-  std::string warning;  ///< where it is more than is asked for, or than 2 %
+  std::string warning;  ///< where it is more than 2 %, and no accuracy is asked for that cuts them
 };
 
 /// What is said of it.

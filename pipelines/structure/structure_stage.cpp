@@ -17,6 +17,7 @@
 #include "mesh/mesh_error.hpp"
 #include "mesh/mesh_reader.hpp"
 #include "mesh/mesher_process.hpp"
+#include "mesh/refined_mesh.hpp"
 #include "pipelines/import/given_matrices.hpp"
 #include "pipelines/import/matrix_checks.hpp"
 #include "pipelines/import/mesh_file.hpp"
@@ -245,12 +246,24 @@ std::string surfaces_text(const mesh::Mesh& mesh) {
          "at coordinates";
 }
 
+/// Points that have coordinates stay the nodes that the mesh of the file has there.
+mesh::Mesh with_other_elements(mesh::Mesh mesh, const SceneDescription& scene) {
+  const auto* file = std::get_if<MeshFileModel>(&scene.model);
+  if (file == nullptr) return mesh;
+  if (file->midside_nodes) mesh = mesh::quadratic(mesh);
+  for (int i = 0; i < file->refinement; ++i) {
+    require_memory_when_cut(mesh, scene.settings.basis.solver);
+    mesh = mesh::refined(mesh);
+  }
+  return mesh;
+}
+
 }  // namespace
 
 mesh::Mesh obtain_mesh(const SceneDescription& scene, const std::filesystem::path& mesh_file) {
   mesh::Mesh mesh = mesh_of(scene, mesh_file);
   name_points(mesh, scene);
-  return mesh;
+  return with_other_elements(std::move(mesh), scene);
 }
 
 mesh::Mesh reread_mesh(const SceneDescription& scene, const std::filesystem::path& mesh_file) {

@@ -14,10 +14,11 @@
 namespace microslip::pipelines {
 
 /// The mesh of a scene: the parametric blade or a STEP file is meshed into `mesh_file`, or the mesh
-/// an earlier run has made of the same is put there; a given mesh is read.
+/// an earlier run has made of the same is put there; a given mesh is read, and its elements are
+/// made quadratic and cut as the scene says.
 /// It knows the points of the scene by name.
 /// @throws mesh::MeshError, std::invalid_argument  see mesh_blade, mesh_step_model and read_mesh.
-/// @throws SceneError  see name_points().
+/// @throws SceneError  see name_points(). fem::MemoryError  see require_memory_when_cut().
 [[nodiscard]] mesh::Mesh obtain_mesh(const SceneDescription& scene,
                                      const std::filesystem::path& mesh_file);
 

@@ -96,6 +96,10 @@ constexpr std::array mesh_keys{
             "(then "
             "m) and for files that tell it",
             true},
+    KeySpec{"refinement", integer, "", "0", 0, 3, false,
+            "times that each element of the file is cut along each edge: 1 makes eight of each"},
+    KeySpec{"midside_nodes", text, "", "\"off\"", 0, 0, false,
+            "on: linear elements get nodes in the middle of their edges, and are quadratic"},
     file_order_key,
 };
 

@@ -32,10 +32,12 @@ Example = collections.namedtuple("Example", "page line kind text")
 # (page, begin of the example): why it is not run as it stands.
 DEAR = {
     ("README.md", "share/scripts/quickstart.sh"): "installs packages and builds",
-    ("README.md", "microslip run blade.toml -o runs/best"): "some 20 s: a search for a best value",
+    ("README.md", "microslip run blade.toml -o runs/blade"): "two minutes: elements are cut twice",
+    ("README.md", "microslip run blade.toml -o runs/best"): "minutes: a search for a best value",
     ("accuracy.md", "ctest"): "the test of that name runs by itself",
     ("accuracy.md", "microslip run scene.toml"): "a minute: that is its budget",
     ("accuracy.md", "microslip converge share"): "an hour",
+    ("accuracy.md", "microslip converge blade.toml --knobs refinement"): "90 s: elements cut twice",
     ("costs.md", "MICROSLIP_CAMPAIGNS=whole"): "half an hour",
     ("costs.md", "python3 tests/benchmarks/effect_sets.py"): "twenty minutes",
     ("harmonics.md", "build/bin/microslip run"): "10 s: ten harmonics of 96 points",

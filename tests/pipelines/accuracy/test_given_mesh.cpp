@@ -1,6 +1,7 @@
 // What is told of the mesh of a file, beside what finer elements of the same body give.
 #include "pipelines/accuracy/given_mesh.hpp"
 
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -17,6 +18,7 @@
 #include "pipelines/response/highest_peak.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/scene/scene_file.hpp"
+#include "pipelines/structure/extrapolated_modes.hpp"
 #include "pipelines/structure/structure_stage.hpp"
 #include "pipelines/system/temporary_folder.hpp"
 #include "tests/support/box_mesh.hpp"
@@ -25,6 +27,8 @@ namespace microslip::pipelines::test_given_mesh {
 namespace {
 
 constexpr const char* blade = MICROSLIP_SCENES "/blade_to_ground.toml";
+
+constexpr const char* plate = MICROSLIP_SCENES "/plate_mesh.toml";
 
 /// The default blade from a file instead of its geometry.
 SceneDescription from_file(const std::filesystem::path& mesh,
@@ -75,6 +79,100 @@ TEST_F(GivenMesh, HasARowOfItsElements) {
     EXPECT_GT(told, wrong) << name;
     EXPECT_LT(told, 2.5 * wrong) << name;  // as far as test_stress_jumps lets it be
   }
+}
+
+double first_frequency(const std::vector<std::string>& settings) {
+  const TemporaryFolder folder;
+  return solved_structure(read_scene(plate, settings), folder.path() / "mesh.msh")
+      .modes.basis.frequency[0];
+}
+
+// Elements of the file are twice as large as those they are cut into.
+TEST_F(GivenMesh, IsSetAgainstTheFileWhereItsElementsAreCut) {
+  const double exact = first_frequency({"model.refinement=2"});
+  const SceneDescription scene = read_scene(plate, {"model.refinement=1"});
+  const SolvedStructure structure = solved_structure(scene, folder_.path() / "mesh.msh");
+  EXPECT_EQ(structure.coarser, nullptr);
+  std::vector<std::string> warnings;
+  const ReducedModel model = model_of(scene, &structure, warnings);
+  const RicherModels richer = richer_models(model, scene, &structure, {"mesh"});
+  ASSERT_EQ(richer.models.size(), 1U);
+  const CurveResult curve =
+      trace_curve(model, scene, {"free", LimitName::free}, [](const auto&) { return true; });
+  const CurveBudget budget = error_budget(model, scene, richer, curve);
+  const double told = bar_of(budget.rows, "free", peak_frequency_goal);
+  const double wrong = model.frequency[0] / exact - 1.0;
+  std::printf("cut once: told %.2g %%, true %.2g %%\n", 100.0 * told, 100.0 * wrong);
+  EXPECT_GT(wrong, 0.0);
+  EXPECT_GT(told, wrong);
+  EXPECT_LT(told, 16.0 * wrong) << "as smooth fields converge";
+}
+
+TEST_F(GivenMesh, IsExtrapolatedWhereItsElementsAreCutTwice) {
+  const double once = first_frequency({"model.refinement=1"});
+  const double twice = first_frequency({"model.refinement=2"});
+  const SceneDescription scene =
+      read_scene(plate, {"model.refinement=2", "accuracy.tolerance=0.01"});
+  const SolvedStructure structure = solved_structure(scene, folder_.path() / "mesh.msh");
+  ASSERT_NE(structure.coarser, nullptr);
+  EXPECT_NE(structure.coarser->text.find("as the file has them"), std::string::npos)
+      << structure.coarser->text;
+  const double limit = structure.modes.basis.frequency[0];
+  EXPECT_LT(limit, twice);
+  EXPECT_LT(twice - limit, once - twice) << "a third cut changes less than the second";
+}
+
+constexpr const char* one_brick = R"($MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+2
+2 1 "x0"
+3 2 "body"
+$EndPhysicalNames
+$Nodes
+8
+1 0 0 0
+2 1 0 0
+3 1 1 0
+4 0 1 0
+5 0 0 1
+6 1 0 1
+7 1 1 1
+8 0 1 1
+$EndNodes
+$Elements
+2
+1 3 2 1 1 1 5 8 4
+2 5 2 2 1 1 2 3 4 5 6 7 8
+$EndElements
+)";
+
+constexpr const char* of_one_brick = R"([model]
+kind = "mesh"
+file = "brick.msh"
+[material]
+youngs_modulus = 2e11
+poissons_ratio = 0.3
+density = 8000
+[supports]
+clamped = ["x0"]
+[modes]
+count = 2
+)";
+
+TEST_F(GivenMesh, HasTheElementsThatTheSceneMakesOfThoseInTheFile) {
+  std::ofstream(folder_.path() / "brick.msh") << one_brick;
+  const auto made = [&](const std::vector<std::string>& settings) {
+    return obtain_mesh(parse_scene(of_one_brick, "brick.toml", folder_.path(), settings),
+                       folder_.path() / "mesh.msh");
+  };
+  EXPECT_EQ(made({}).n_nodes(), 8);
+  EXPECT_EQ(made({"model.refinement=1"}).n_nodes(), 27);
+  const mesh::Mesh quadratic = made({"model.midside_nodes=\"on\""});
+  EXPECT_EQ(quadratic.elements().front().type, mesh::ElementType::hex20);
+  EXPECT_EQ(quadratic.node_set("x0").size(), 8U);
+  EXPECT_EQ(made({"model.midside_nodes=\"on\"", "model.refinement=1"}).n_elements(), 8);
 }
 
 constexpr const char* of_a_box = R"([model]

@@ -89,7 +89,12 @@ TEST(Ladders, OfAMeshFileCutItsElements) {
   ASSERT_EQ(values_of(refinement), (Names{"given", "halved"}));
   EXPECT_TRUE(refinement.rungs[0].same_mesh);
   EXPECT_FALSE(refinement.rungs[1].same_mesh);
-  EXPECT_EQ(refinement.rungs[1].n_cuts, 1);
+  EXPECT_EQ(std::get<MeshFileModel>(refinement.rungs[1].scene.model).refinement, 1);
+  EXPECT_DOUBLE_EQ(refinement.rungs[1].size, 0.5 * refinement.rungs[0].size);
+  const Ladder further = ladder(scene("plate_mesh", {"model.refinement=1"}), "refinement");
+  ASSERT_EQ(values_of(further), (Names{"given", "halved", "quartered"}));
+  EXPECT_TRUE(further.rungs[1].same_mesh);
+  EXPECT_EQ(std::get<MeshFileModel>(further.rungs[0].scene.model).refinement, 0);
 }
 
 TEST(Ladders, SetBalanceAgainstTimeAtThePeaksOfBalance) {

@@ -178,6 +178,53 @@ TEST(Refinement, ACurveThatCannotBeRefinedDoesNotStopTheOthers) {
       << "not worth a round";
 }
 
+SceneDescription mesh_file(int refinement) {
+  SceneDescription scene = blade();
+  MeshFileModel file;
+  file.refinement = refinement;
+  scene.model = file;
+  scene.accuracy.tolerance = tolerance;
+  return scene;
+}
+
+TEST(Refinement, CutsTheElementsOfAMeshFile) {
+  std::string left;
+  const auto once = refinement(mesh_file(0), {budget({{"mesh", 0.03}})}, tolerance, spent, left);
+  ASSERT_TRUE(once.has_value());
+  EXPECT_EQ(std::get<MeshFileModel>(once->scene.model).refinement, 1);
+  EXPECT_TRUE(once->new_mesh);
+  EXPECT_EQ(once->text, "elements of the file cut once");
+  // Of elements cut twice modes are extrapolated.
+  const auto twice = refinement(mesh_file(0), {budget({{"mesh", 0.06}})}, tolerance, spent, left);
+  ASSERT_TRUE(twice.has_value());
+  EXPECT_EQ(std::get<MeshFileModel>(twice->scene.model).refinement, 2);
+  EXPECT_GT(twice->seconds, 5.0 * once->seconds);
+  EXPECT_FALSE(
+      refinement(mesh_file(3), {budget({{"mesh", 0.06}})}, tolerance, spent, left).has_value());
+  EXPECT_EQ(left, "mesh");
+}
+
+// Of linear elements, and of bodies that rotate, the jumps of stress do not tell the error.
+TEST(Refinement, RefinesAMeshOfAFileUntilItsErrorIsKnown) {
+  CurveBudget told = budget({{"cells", 1e-4}});
+  EXPECT_FALSE(has_mesh_to_tell(mesh_file(0), {told}));
+  told.unknown.emplace_back("mesh");
+  EXPECT_TRUE(has_mesh_to_tell(mesh_file(0), {told}));
+  EXPECT_FALSE(has_mesh_to_tell(mesh_file(3), {told})) << "cut as often as may be";
+  std::string left;
+  const auto cut = refinement(mesh_file(0), {told}, tolerance, spent, left);
+  ASSERT_TRUE(cut.has_value());
+  EXPECT_EQ(cut->text, "elements of the file cut once");
+  SpentSeconds linear = spent;
+  linear.linear_elements = true;
+  const auto midside = refinement(mesh_file(0), {told}, tolerance, linear, left);
+  ASSERT_TRUE(midside.has_value());
+  EXPECT_EQ(midside->text, "midside nodes");
+  EXPECT_TRUE(std::get<MeshFileModel>(midside->scene.model).midside_nodes);
+  EXPECT_EQ(std::get<MeshFileModel>(midside->scene.model).refinement, 0);
+  EXPECT_TRUE(midside->new_mesh);
+}
+
 TEST(Refinement, RefinesAtSharpEdgesBeforeEverywhere) {
   std::string left;
   const auto step = refinement(blade(), {budget({{"mesh", 0.03}})}, tolerance, spent, left);
@@ -356,8 +403,8 @@ TEST(Refinement, HarmonicsThatCannotBeToldAreRefinedFirst) {
 
 TEST(Refinement, NamesWhatItCannotRefine) {
   std::string left;
-  SceneDescription scene = blade();
-  scene.model = MeshFileModel{};
+  SceneDescription scene = mesh_file(0);
+  std::get<MeshFileModel>(scene.model).modes = ModesFile{};  // of another code, on this mesh
   EXPECT_FALSE(refinement(scene, {budget({{"mesh", 0.05}})}, tolerance, spent, left).has_value());
   EXPECT_EQ(left, "mesh");
 }

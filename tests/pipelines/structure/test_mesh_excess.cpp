@@ -49,15 +49,24 @@ TEST(MeshExcess, IsNotToldOfWhatRotates) {
   EXPECT_EQ(excess_of("plate_mesh.toml", rotating).text, "");
 }
 
-TEST(MeshExcess, IsAWarningWhereMoreAccuracyIsAskedFor) {
-  EXPECT_EQ(excess_of("plate_mesh.toml", {"accuracy.tolerance=0.2"}).warning, "");
-  const std::string warning = excess_of("plate_mesh.toml", {"accuracy.tolerance=0.001"}).warning;
-  EXPECT_NE(warning.find("model.file"), std::string::npos) << warning;
-  EXPECT_NE(warning.find("smaller"), std::string::npos)
-      << "its elements are quadratic: " << warning;
+// Where an accuracy is asked for a run cuts the elements, but for those of which it is not told.
+TEST(MeshExcess, IsAWarningWhereNothingIsDoneAboutIt) {
+  SceneDescription scene;
+  FrequencyExcess large{{0}, Eigen::VectorXd::Constant(1, 0.03), true};
+  const std::string warning = mesh_excess(large, scene).warning;
+  EXPECT_NE(warning.find("model.refinement = 1"), std::string::npos) << warning;
+  scene.accuracy.tolerance = 0.01;
+  EXPECT_EQ(mesh_excess(large, scene).warning, "");
+  EXPECT_NE(mesh_excess(large, scene).text, "");
+  large.is_whole = false;
+  EXPECT_NE(mesh_excess(large, scene).warning.find("quadratic"), std::string::npos);
+  scene.accuracy.tolerance = 0.0;
+  const FrequencyExcess small{{0}, Eigen::VectorXd::Constant(1, 0.01), true};
+  EXPECT_EQ(mesh_excess(small, scene).warning, "");
 }
 
 TEST(MeshExcess, IsNotToldWhereTheErrorBudgetTellsIt) {
+  EXPECT_EQ(excess_of("plate_mesh.toml", {"model.refinement=1"}).text, "");
   EXPECT_EQ(excess_of("blade_to_ground.toml", {"model.element_size=\"20 mm\""}).text, "");
 }
 
