@@ -20,8 +20,8 @@ struct ContinuationOptions {
   /// less than this share of the amplitude (enrichment/curve_harmonics.hpp); n_harmonics is the
   /// highest that may be added, `orders` is not used.
   double harmonic_tolerance = 0.0;
-  /// Where a set is chosen: harmonics above n_harmonics, up to this one, are added where they
-  /// resonate with a mode.
+  /// Harmonics above n_harmonics, up to this one, are added where they resonate with a mode: to a
+  /// set that is chosen, and to that which a given one is checked with (richer_peak.hpp).
   int highest_resonance = 0;
   /// Relative, see ResponsePoint::residual; > 0. Of every point;
   /// rounding of the residual bounds it below.

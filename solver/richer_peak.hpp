@@ -28,10 +28,12 @@ struct RicherPeak {
   int highest = 0;                 ///< harmonic
   double seconds = 0.0;            ///< that solving it took
   double dissipated_energy = 0.0;  ///< by friction in a period, with more harmonics [J]
+  std::vector<int> beyond{};       ///< harmonics above `highest` that resonate at the peak as well
 };
 
 /// @param scene    the same with a contact that takes `highest` harmonics.
-/// @param range    of the curve, harmonics given.
+/// @param range    of the curve, harmonics given. Up to its `highest_resonance` harmonics beyond
+///                 `highest` are solved for as well where they meet a mode at the peak.
 /// @param curve    its highest peak, or end of the range, is taken.
 /// @param highest  harmonic, ≥ 5 more than those of the curve.
 /// @return empty: the curve has no peak, and no end of the range, to begin with.

@@ -119,6 +119,7 @@ Json to_json(const BesideBar& left_out) {
 Json to_json(const solver::RicherPeak& peak) {
   const bool found = peak.change.has_value();
   return {{"highest", peak.highest},
+          {"beyond", peak.beyond},
           {"frequency_Hz", found ? Json(in_hertz(peak.frequency)) : Json(nullptr)},
           {"amplitude_m", found ? Json(peak.amplitude) : Json(nullptr)}};
 }

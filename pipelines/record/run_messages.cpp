@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "contact/contact_force.hpp"
 #include "fem/blas_threads.hpp"
@@ -108,6 +109,14 @@ std::string largest_text(const solver::ResponseCurve& curve, const solver::Respo
   return fmt::format("; highest peak {:.3g} m at {:.4g} Hz, largest {:.3g} m at {:.4g} Hz",
                      peak.amplitude, to_hz * peak.frequency, highest->amplitude,
                      to_hz * highest->frequency);
+}
+
+/// "up to 9", "up to 9 and 15, which meets a mode".
+std::string orders_text(const solver::RicherPeak& richer) {
+  std::string text = fmt::format("up to {}", richer.highest);
+  if (richer.beyond.empty()) return text;
+  const char* meet = richer.beyond.size() == 1 ? "meets" : "meet";
+  return text + fmt::format(" and {}, which {} a mode,", fmt::join(richer.beyond, ", "), meet);
 }
 
 }  // namespace
@@ -281,20 +290,23 @@ std::string left_out_text(const CurveResult& result) {
   if (!result.richer || result.curve.points.empty()) return {};
   const solver::RicherPeak& richer = *result.richer;
   const int given = result.curve.points.front().q.n_harmonics();
+  const std::string more = orders_text(richer);
+  // A list may have those that resonate and no others in between.
+  const std::string remedy =
+      richer.beyond.empty() ? fmt::format("response.harmonics = {} or \"auto\"", richer.highest)
+                            : "response.harmonics = \"auto\"";
   if (!richer.change) {
     return fmt::format(
-        "curve {}: with harmonics up to {} its peak is not found from the one with {}: these do "
-        "not tell this "
-        "curve; set response.harmonics = {} or \"auto\"",
-        result.name, richer.highest, given, richer.highest);
+        "curve {}: with harmonics {} its peak is not found from the one with {}: these do not tell "
+        "this curve; set {}",
+        result.name, more, given, remedy);
   }
   if (!(std::abs(*richer.change) >= worth_a_warning)) return {};  // nor of what does not move
   return fmt::format(
-      "curve {}: with harmonics up to {} its peak is {:.3g} m at {:.4g} Hz: harmonics up to {} put "
-      "it {:.0f} % too "
-      "{}; set response.harmonics = {} or \"auto\"",
-      result.name, richer.highest, richer.amplitude, to_hz * richer.frequency, given,
-      100.0 * std::abs(*richer.change), *richer.change > 0.0 ? "low" : "high", richer.highest);
+      "curve {}: with harmonics {} its peak is {:.3g} m at {:.4g} Hz: harmonics up to {} put it "
+      "{:.0f} % too {}; set {}",
+      result.name, more, richer.amplitude, to_hz * richer.frequency, given,
+      100.0 * std::abs(*richer.change), *richer.change > 0.0 ? "low" : "high", remedy);
 }
 
 std::string precision_text(const CurveSummary& curve, const ReducedModel& model) {

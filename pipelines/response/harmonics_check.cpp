@@ -26,6 +26,19 @@ int harmonics_to_check(const ReducedModel& model, const SceneDescription& scene)
 
 namespace {
 
+/// The harmonics that the peak was asked with.
+solver::ContinuationOptions with_all(solver::ContinuationOptions options,
+                                     const solver::RicherPeak& richer) {
+  options.n_harmonics = richer.highest;
+  options.orders.clear();
+  if (richer.beyond.empty()) return options;
+  for (int k = 1; k <= richer.highest; ++k) options.orders.push_back(k);
+  options.orders.insert(options.orders.end(), richer.beyond.begin(), richer.beyond.end());
+  options.n_harmonics = options.orders.back();
+  options.without_mean = false;
+  return options;
+}
+
 /// For the peak with more harmonics.
 void take(const solver::ResponsePoint& peak, CurveResult& result) {
   solver::RicherPeak& richer = *result.richer;
@@ -95,8 +108,7 @@ void check_harmonics(ReducedModel model, const SceneDescription& scene, double l
   const solver::ContinuationOptions asked = options;
   const bool missed = result.richer && !result.richer->change;
   if (missed && options.frequency_begin != options.frequency_end) {
-    options.n_harmonics = highest;
-    options.orders.clear();
+    options = with_all(std::move(options), *result.richer);
     trace_about_peak(model, load, options, result);
   }
   const bool is_found = result.richer && result.richer->change;

@@ -125,9 +125,7 @@ solver::ContinuationOptions continuation_options(const SceneDescription& scene,
   options.n_harmonics =
       harmonics.chosen() ? most_meant(model, response, harmonics.highest) : harmonics.highest;
   constexpr int highest_asked = 100;  // whether it resonates: a line of a force each
-  if (harmonics.chosen()) {
-    options.highest_resonance = order_of_modes(model, response, highest_asked);
-  }
+  options.highest_resonance = order_of_modes(model, response, highest_asked);
   options.orders = harmonics.orders;
   const bool given = options.orders.empty() && !harmonics.chosen();
   if (given && has_odd_motions(model)) {

@@ -15,6 +15,7 @@
 #include "solver/enrichment/enrichment.hpp"
 #include "solver/enrichment/level_point.hpp"
 #include "solver/enrichment/resonances_along.hpp"
+#include "solver/enrichment/resonances_beyond.hpp"
 #include "solver/peak/high_points.hpp"
 
 namespace microslip::solver {
@@ -24,6 +25,8 @@ constexpr double farthest = 4.0;     // amplitudes or widths along the branch
 constexpr double much_lower = 0.95;  // of the amplitude
 constexpr double moved_much = 0.02;  // the same
 constexpr Eigen::Index most_unknowns = 300;
+// Of motion or amplitude, on a harmonic beyond: what it dissipates may change the peak more.
+constexpr double counts_beyond = 5e-4;
 
 /// By friction in a period [J].
 double energy_of(HarmonicBalance& balance, const LocalPeak& peak) {
@@ -135,6 +138,45 @@ std::vector<LocalPeak> places_beside(HarmonicBalance& balance, const ResponseCur
   return places;
 }
 
+/// Of the curve whose peak is to be found with more harmonics.
+struct Origin {
+  const Scene& scene;
+  const ContinuationOptions& range;
+  const ResponseCurve& curve;
+  HarmonicBalance& coarse;
+  const Top& top;
+};
+
+/// Next to an internal resonance a peak becomes two: the other one is reached from beside it.
+void look_beside(const Origin& origin, const HarmonicSet& all, std::optional<LocalPeak>& found,
+                 PeakWork& work) {
+  for (const LocalPeak& beside : places_beside(origin.coarse, origin.curve, origin.top.point)) {
+    auto next = carried_peak(origin.scene, origin.range, beside, origin.coarse.set(), all, work);
+    if (next && next->amplitude > found->amplitude) found = std::move(next);
+  }
+}
+
+std::optional<LocalPeak> carried_top(const Origin& origin, const HarmonicSet& all, PeakWork& work) {
+  const auto& [scene, range, curve, coarse, top] = origin;
+  std::optional<LocalPeak> found = carried_peak(scene, range, top.peak, coarse.set(), all, work);
+  // With many unknowns that takes longer than the curve: 14 s beside 7 for the default blade.
+  const bool is_cheap = (2 * all.count() + 1) * scene.n_modes() <= most_unknowns;
+  const double least = (1.0 - moved_much) * top.point.amplitude;
+  if (found && is_cheap && found->amplitude < least) look_beside(origin, all, found, work);
+  return found;
+}
+
+/// The peak with those that resonate as well; few scenes have any.
+/// @param peak  solved with all that `fewer` has.
+std::optional<LocalPeak> carried_beyond(const Origin& origin, const LocalPeak& peak,
+                                        const HarmonicSet& fewer, const HarmonicSet& all,
+                                        PeakWork& work) {
+  auto found = carried_peak(origin.scene, origin.range, peak, fewer, all, work);
+  const double least = (1.0 - counts_beyond) * peak.amplitude;
+  if (found && found->amplitude < least) look_beside(origin, all, found, work);
+  return found;
+}
+
 }  // namespace
 
 std::optional<RicherPeak> richer_peak(const Scene& scene, const ContinuationOptions& range,
@@ -146,18 +188,18 @@ std::optional<RicherPeak> richer_peak(const Scene& scene, const ContinuationOpti
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
   RicherPeak result{top->point.frequency, top->point.amplitude, std::nullopt, highest};
-  const HarmonicSet all = coarse.set().united(HarmonicSet(highest).orders());
+  HarmonicSet all = coarse.set().united(HarmonicSet(highest).orders());
+  const ContinuationOptions wide = widened(range);
   PeakWork work;
-  std::optional<LocalPeak> found =
-      carried_peak(scene, widened(range), top->peak, coarse.set(), all, work);
-  // Next to an internal resonance a peak becomes two: the other one is reached from beside it. With
-  // many unknowns that takes longer than the curve: 14 s beside 7 for the default blade.
-  const bool is_cheap = (2 * all.count() + 1) * scene.n_modes() <= most_unknowns;
-  if (found && is_cheap && found->amplitude < (1.0 - moved_much) * top->point.amplitude) {
-    for (const LocalPeak& beside : places_beside(coarse, curve, top->point)) {
-      auto next = carried_peak(scene, widened(range), beside, coarse.set(), all, work);
-      if (next && next->amplitude > found->amplitude) found = std::move(next);
-    }
+  const Origin origin{scene, wide, curve, coarse, *top};
+  std::optional<LocalPeak> found = carried_top(origin, all, work);
+  if (found) {
+    HarmonicBalance balance(scene, all);
+    result.beyond = resonances_beyond(balance, *found, range.highest_resonance, counts_beyond);
+  }
+  if (!result.beyond.empty()) {
+    const HarmonicSet fewer = std::exchange(all, all.united(result.beyond));
+    found = carried_beyond(origin, *found, fewer, all, work);
   }
   result.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   if (!found || found->amplitude < another_peak * top->point.amplitude) return result;

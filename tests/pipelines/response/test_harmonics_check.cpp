@@ -108,6 +108,44 @@ harmonics = )") +
   EXPECT_NEAR(one.richer->amplitude, truth, 1e-6 * truth);
 }
 
+/// A mode that neither the excitation nor the first harmonics move, far above.
+std::string with_distant_mode(double hz, const std::string& harmonics) {
+  return R"([model]
+kind = "modal"
+[modal]
+damping_ratio = [0.003, 0.001]
+force_sine = [7, 0]
+output = [0.75, 3]
+points = [ { weight = 1, tangential_stiffness = 4e4, normal_stiffness = 4e4, friction_coefficient = 0.5, preload = 28.59, phi_u_1 = 0.5, phi_u_2 = 2, phi_v_1 = 0.1 } ]
+frequency = [20, )" +
+         std::to_string(hz) + "]\n[response]\nfrequency = [19, 28]\nharmonics = " + harmonics +
+         "\n";
+}
+
+// At fifteen times the peak the mode moves it by 2.3 %, and the eleven harmonics of a check that
+// ends there by 0.1 %.
+TEST(HarmonicsCheck, ReachesAModeFarAboveTheHarmonicsGiven) {
+  const CurveResult three = traced(with_distant_mode(319.0, "3"));
+  const double own = highest_peak(three.curve)->amplitude;
+  const double truth = highest_peak(traced(with_distant_mode(319.0, "17")).curve)->amplitude;
+  const double eleven = highest_peak(traced(with_distant_mode(319.0, "11")).curve)->amplitude;
+  ASSERT_GT(std::abs(own / truth - 1.0), 0.02);
+  ASSERT_LT(std::abs(own / eleven - 1.0), 0.002);
+  ASSERT_TRUE(three.richer && three.richer->change);
+  EXPECT_EQ(three.richer->highest, 11);
+  EXPECT_EQ(three.richer->beyond, std::vector<int>{15});
+  EXPECT_NEAR(three.richer->amplitude, truth, 0.001 * truth);
+}
+
+// Half way between two multiples of the peak: that costs nothing, and nothing is missed.
+TEST(HarmonicsCheck, GoesNoFurtherWhereNoModeIsNear) {
+  const CurveResult three = traced(with_distant_mode(331.0, "3"));
+  ASSERT_TRUE(three.richer && three.richer->change);
+  EXPECT_TRUE(three.richer->beyond.empty());
+  const double truth = highest_peak(traced(with_distant_mode(331.0, "17")).curve)->amplitude;
+  EXPECT_NEAR(three.richer->amplitude, truth, 0.001 * truth);
+}
+
 /// Mode 2 at twice a frequency in the range, where the motion of mode 1 is small: with harmonic 2
 /// the output, which hardly sees mode 1, has its highest peak there.
 std::string with_internal_resonance(const std::string& harmonics) {
