@@ -50,7 +50,7 @@ int run_study(const SceneDescription& asked, const RunOptions& options) {
       ask(record.progress(), scene, solution.structure->mesh, solution.curves);
     if (scene.response->optimum) {
       draw_maps_and_find_best_value(solution, options, record);
-    } else if (options.maps) {
+    } else if (draws_maps(scene, options)) {
       record.stage("maps");
       record.progress().expect(picture_seconds(scene).maps / options.jobs);
       draw_maps(solution, options.jobs, record);

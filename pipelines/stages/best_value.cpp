@@ -107,7 +107,8 @@ void draw_maps_and_find_best_value(const Solution& solution, const RunOptions& o
   // ask for.
   const bool beside =
       options.jobs > 1 && !std::isfinite(seconds_left()) && scene.response->optimum->of_preload();
-  if (options.maps && !beside) {
+  const bool has_maps = draws_maps(scene, options);
+  if (has_maps && !beside) {
     record.stage("maps");
     draw_maps(solution, options.jobs, record);
   }
@@ -122,7 +123,7 @@ void draw_maps_and_find_best_value(const Solution& solution, const RunOptions& o
   BestValue found = is_new ? BestValue() : std::move(*earlier);
   const bool lacks_bracket = options.bracket && !found.bracket;
   std::vector<std::function<void()>> tasks;
-  if (beside && options.maps) {
+  if (beside && has_maps) {
     tasks.emplace_back([&] {
       draw_maps(solution, is_new ? options.jobs - 1 : options.jobs, record);
       record.maps_are_drawn();

@@ -29,6 +29,10 @@ ReducedModel model_of_maps(const Solution& solution) {
 
 }  // namespace
 
+bool draws_maps(const SceneDescription& scene, const RunOptions& options) {
+  return options.maps && scene.response && !scene.response->maps.empty();
+}
+
 void draw_maps(const Solution& solution, int jobs, RunRecord& record) {
   draw_maps(model_of_maps(solution), solution.scene, solution.curves, jobs, record);
 }

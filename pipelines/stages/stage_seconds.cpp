@@ -105,13 +105,14 @@ PictureSeconds picture_seconds(const SceneDescription& scene) {
   constexpr double of_a_plot = 0.6;
   constexpr double of_a_map = 0.08;
   constexpr double of_a_harmonic = 0.02;
-  constexpr double of_a_motion = 0.05;  // at the peak, whatever maps there are
+  constexpr double of_a_motion = 0.05;  // at the peak, beside any maps
   if (!scene.response) return {};
   const std::vector<CurveRequest> curves = curve_requests(scene);
   const auto n_loaded = static_cast<double>(std::ranges::count_if(curves, is_loaded));
   const double n_maps = n_loaded * static_cast<double>(scene.response->maps.size());
   const double harmonics = usual_harmonics(scene);
-  const double maps = n_maps * (of_a_map + of_a_harmonic * harmonics) + n_loaded * of_a_motion;
+  const double maps = n_maps * (of_a_map + of_a_harmonic * harmonics) +
+                      (n_maps > 0.0 ? n_loaded * of_a_motion : 0.0);
   return {.maps = machine_slowness() * maps,
           .plots = machine_slowness() * (of_start + of_a_plot * n_maps)};
 }

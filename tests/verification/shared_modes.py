@@ -123,6 +123,9 @@ class SharedModes(unittest.TestCase):
         # What a curve follows from makes it another; what is asked for beside it does not.
         self.assertLessEqual({"preload_150", "best_value"}, taken("title", [150], title="another", **{"response.maps": ["peak"]}))
         self.assertLessEqual({"preload_150", "best_value"}, taken("no_maps", [150], **{"response.maps": ["peak"], "effects.maps": "off", "effects.wear": "off"}))
+        # Motion at the peaks is drawn beside maps.
+        self.assertTrue(os.path.isdir(os.path.join(WORK, "title", "motion")))
+        self.assertFalse(os.path.exists(os.path.join(WORK, "no_maps", "motion")))
         self.assertEqual(taken("range", [150], **{"response.optimum_range": [200, 600], "accuracy.error_budget": "off"}), {"preload_150"})
         for key, value in (("contact.friction_coefficient", 0.41), ("response.harmonics", 2), ("contact.points", 30),
                            ("response.frequency", ["310 Hz", "336 Hz"]), ("effects.normal_motion", "off")):
