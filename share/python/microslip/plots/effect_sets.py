@@ -34,7 +34,7 @@ def draw_bars(axes: Axes, rows: Sequence[Mapping[str, Any]]) -> None:
     axes.set_yticks(list(places), [row["set"] for row in rows])
     axes.invert_yaxis()
     axes.set_xscale("log")
-    axes.set_xlim(right=20 * max(row["full_seconds"] for row in rows))  # room for what stands behind the bars
+    axes.set_xlim(right=100 * max(row["full_seconds"] for row in rows))  # room for what stands behind the bars
     axes.set_xlabel("processor seconds of a curve")
     axes.tick_params(axis="y", length=0)
     light_grid(axes)
