@@ -14,6 +14,7 @@ import re
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 import meshio
@@ -28,6 +29,7 @@ SCRIPT = os.path.join(SOURCE, "share", "scripts", "convert_mesh.py")
 spec = importlib.util.spec_from_file_location("convert_mesh", SCRIPT)
 convert_mesh = importlib.util.module_from_spec(spec)
 spec.loader.exec_module(convert_mesh)
+from microslip.meshes import abaqus
 meshio._mesh.topological_dimension.update(wedge15=3, pyramid13=3)  # or meshio 5.0 ends on them
 ALL = ("tetra", "tetra10", "hexahedron", "hexahedron20", "wedge", "wedge15", "pyramid", "pyramid13")
 WITHOUT_PYRAMIDS = ALL[:6]
@@ -297,6 +299,45 @@ class AbaqusDecks(Conversion):
         self.refused(BAR + "*NGEN\n1, 3, 1\n", "deck.inp:20", "node by node")
         self.refused(BAR + "*NSET, NSET=Foot\n1\n*SURFACE, NAME=foot\nleft, S1\n", "deck.inp:22", '"foot"', '"Foot"', "case")
         self.refused(BAR.replace("*NODE\n1,", "*NODE, SYSTEM=C\n1,"), "deck.inp:1", "rectangular")
+
+    def test_decimal_commas(self):
+        for nodes in ("1, 0,5, 2,0, 3,5", "1, 2, 0,5, 3,0", "1, 0,5, 2,25, 3"):
+            self.refused(f"*NODE\n{nodes}\n", "deck.inp:2: *NODE: ", "decimal commas")
+        self.refused("*NODE\n1; 0,5; 2,0; 3,5\n", "deck.inp:2: *NODE: ", "parted by commas")
+        normals = BAR.replace("\n1, 0, 0, 0\n", "\n1, 0, 0, 0, 0, 0, -1\n").replace("\n2, 1, 0, 0\n", "\n2, 1, 0, 0, 0, 0, 0\n")
+        self.assertEqual(self.deck(normals).code, 0)
+        self.assertEqual(self.deck(normals.replace("0, 0, -1", "0., 0., -2.")).code, 0)
+
+    def test_one_thing_without_end_is_told_early(self):
+        """Not at the end of 120 MB: hundreds of them took minutes."""
+        heads = {"node": "*NODE\n", "element": BAR + "*ELEMENT, TYPE=C3D8\n", "node in": "*NODE\n", "node of": "*PART, NAME=p\n*NODE\n"}
+        for what, line in (("node", "1, 0, 0, 0\n"), ("element", "9, 1, 2, 5, 4, 11, 12, 15, 14\n"), ("node in", "1, 0, 0, 0\n*NODE\n"),
+                           ("node of", "1, 0, 0, 0\n2, 0, 0, 1\n")):
+            with self.subTest(what), open(self.path("deck.inp"), "w", encoding="utf-8") as file:
+                file.write(heads[what])
+                for _ in range(120):
+                    file.write(line * (1_000_000 // len(line)))
+                file.flush()
+                began = time.process_time()
+                message = Converted(self.path("deck.inp")).message
+                self.assertLess(time.process_time() - began, 2.0)
+                self.assertIn(f"{what.split()[0]} {line[0]} stands twice, at ", message)
+
+    def test_a_long_table_is_read_as_a_short_one(self):
+        """Longer than is read at a time, with lines of one element on either side of the joint."""
+        n = 3 * (abaqus._PIECE // 2) + 1
+        nodes = "".join(f"{i}, {i // 4}, {i // 2 % 2}, {i % 2}\n" for i in range(4 * n + 4))
+        bricks = "".join(f"{9 + i}, {4 * i}, {4 * i + 4}, {4 * i + 6}, {4 * i + 2}, {4 * i + 1},\n{4 * i + 5}, {4 * i + 7}, {4 * i + 3}\n"
+                         for i in range(n))
+        deck = f"*NODE\n0, 0, 0, 0\n*NODE\n{nodes.split(chr(10), 1)[1]}*ELEMENT, TYPE=C3D8\n{bricks}"
+        elements = self.deck(deck).elements
+        self.assertEqual(len(elements), n)
+        last = elements[-1][1]
+        np.testing.assert_array_equal([last.min(axis=0), last.max(axis=0)], [[n - 1, 0, 0], [n, 1, 1]])
+        again = deck.replace(f"\n{8 + n}, {4 * n - 4}, ", f"\n9, {4 * n - 4}, ")
+        lines = deck.split("\n")
+        first = lines.index("*ELEMENT, TYPE=C3D8") + 2
+        self.refused(again, f"element 9 stands twice, at {self.path('deck.inp')}:{first} and ", f"deck.inp:{len(lines) - 2};")
 
 
 NASTRAN = """SOL 103

@@ -14,7 +14,7 @@ from typing import Callable, Iterable, Iterator, Optional, Sequence, Tuple, Unio
 import numpy as np
 
 from .content import (TYPES, Block, Content, Refused, boundary_faces, corners_of_faces, ends_of_edges, four_sorted, leave_out,
-                      require, rows_in, volumes)
+                      refuse_twice, require, rows_in, volumes)
 from .decks import open_deck
 
 Where = Tuple[str, int]  # file and line
@@ -30,6 +30,9 @@ _TIES = ("MPC", "EQUATION", "TIE", "RIGID BODY", "KINEMATIC", "KINEMATIC COUPLIN
          "FASTENER", "CYCLIC SYMMETRY MODEL")
 # They weigh, pull and join, and have no mesh.
 _POINTLIKE = re.compile(r"MASS|ROTARYI|SPRING[12A]|DASHPOT[12A]|CONN3D2|DCOUP3D|GAP[A-Z]+", re.I)
+_NUMBERS = {"NODE": float, "ELEMENT": int}  # what data lines of a table hold
+_PIECE = 20_000  # data lines of a table that are text at a time
+_MANY = 4_000  # nodes or elements in cards of their own
 _WITH_INPUT = re.compile(r"\*\s*(?:NODE|ELEMENT|NSET|ELSET|SURFACE)\s*,.*\bINPUT\s*=\s*([^,]+)", re.I)
 
 
@@ -92,6 +95,44 @@ class _Card:
             key, _, value = word.partition("=")
             self.parameters[key.strip().upper()] = value.strip().strip('"')
         self.data = []  # (where, text)
+        # Whatever else *ELEMENT may tell of, bodies, skins and lines are told in numbers.
+        self._is_table = self.keyword == "NODE" or self.keyword == "ELEMENT" and _type(self.get("TYPE")) is not None
+        self._pieces = []  # of data that are numbers by now: (file, lines, numbers, how many each line has)
+        self.has_points = False  # decimal ones, known for a table when its numbers are
+        self._n_watched = 0  # data lines
+
+    def add(self, where: Where, text: str) -> None:
+        """A data line. A long table becomes numbers piece by piece: as text it takes ten times the memory."""
+        if self._is_table and self.data and (len(self.data) >= _PIECE or where[0] != self.data[0][0][0]):
+            self._settle()
+            self._refuse_endless()
+        self.data.append((where, text))
+
+    def _settle(self) -> None:
+        if self.data:
+            self._pieces.append((self.data[0][0][0], np.array([line for (_, line), _ in self.data]), *self._numbers_of_data()))
+            self.data = []
+
+    def _refuse_endless(self) -> None:
+        """What says one thing over and over, told before hundreds of megabytes of it are read: asked whenever the lines
+        have doubled."""
+        n_lines = sum(len(piece[1]) for piece in self._pieces)
+        if n_lines < max(_PIECE, 2 * self._n_watched):
+            return
+        self._n_watched = n_lines
+        numbers, lines = self._first_numbers()
+        refuse_twice(self.place.rpartition(":")[0], self.keyword.lower(), numbers,
+                     lambda _, wanted: [self.place_of(line) for line in lines[numbers == wanted]])
+
+    def _first_numbers(self) -> tuple[np.ndarray, np.ndarray]:
+        """Those of nodes or of elements that are complete so far, and the data lines they stand on."""
+        values, counts = self.numbers()
+        ends = np.cumsum(counts)
+        if self.keyword == "NODE":
+            return values[ends - counts].astype(np.int64), np.arange(len(counts))
+        width = TYPES[_type(self.get("TYPE"))].n_nodes + 1
+        begins = np.arange(0, len(values) // width * width, width)
+        return values[begins], np.searchsorted(ends, begins, side="right")
 
     def has(self, key: str) -> bool:
         return key in self.parameters
@@ -104,20 +145,34 @@ class _Card:
         return self.get(key)
 
     def place_of(self, line: int) -> str:
-        """Of a data line."""
-        path, number = self.data[line][0]
-        return f"{path}:{number}"
+        """Of a data line of a table."""
+        self._settle()
+        for path, lines, _, _ in self._pieces:
+            if line < len(lines):
+                return f"{path}:{lines[line]}"
+            line -= len(lines)
+        raise IndexError(line)
 
     def rows(self) -> Iterator[tuple[str, list[str]]]:
         """Place and words of every data line."""
         for where, text in self.data:
             yield f"{where[0]}:{where[1]}", [word.strip() for word in text.rstrip(",").split(",")]
 
-    def numbers(self, convert: Callable[[str], float]) -> tuple[np.ndarray, np.ndarray]:
-        """All numbers of the data lines and how many each line has. Raises Refused at the line that holds no number."""
+    def numbers(self) -> tuple[np.ndarray, np.ndarray]:
+        """All numbers of a table and how many each data line has; no lines: none. Raises Refused at the line that holds no
+        number."""
+        self._settle()
+        values = [piece[2] for piece in self._pieces]
+        counts = [piece[3] for piece in self._pieces]
+        return (np.concatenate(values), np.concatenate(counts)) if values else (np.empty(0), np.empty(0, dtype=np.int64))
+
+    def _numbers_of_data(self) -> tuple[np.ndarray, np.ndarray]:
+        convert = _NUMBERS[self.keyword]
         texts = [text.rstrip(", \t") for _, text in self.data]
+        joined = ",".join(texts)
+        self.has_points = self.has_points or "." in joined
         try:
-            return np.array(list(map(convert, ",".join(texts).split(",")))), \
+            return np.array(list(map(convert, joined.split(",")))), \
                 np.array([text.count(",") + 1 for text in texts])
         except ValueError:
             for place, words in self.rows():
@@ -125,7 +180,8 @@ class _Card:
                     try:
                         convert(word)
                     except ValueError:
-                        raise Refused(f'{place}: *{self.keyword}: expected a number, found "{word[:40]}"') from None
+                        hint = "; numbers are parted by commas, and decimals by points" if re.search(r"[;\t ]", word) else ""
+                        raise Refused(f'{place}: *{self.keyword}: expected a number, found "{word[:40]}"{hint}') from None
             raise
 
 
@@ -137,7 +193,7 @@ def _cards(lines: Iterable[tuple[Where, str]]) -> Iterator[_Card]:
             text, where, continued = continued[1] + text, continued[0], None
         if text[0] != "*":
             if card:
-                card.data.append((where, text))
+                card.add(where, text)
             continue
         if text.endswith(","):
             continued = (where, text)
@@ -195,6 +251,8 @@ class _Deck:
         self.path = path
         self.nodes, self.coordinates, self.blocks = [], [], []
         self.origins = {"node": [], "element": []}  # (numbers, card, data line of each)
+        self.n_taken = {"node": 0, "element": 0}
+        self.next_watch = {"node": _MANY, "element": _MANY}
         self.node_sets, self.element_sets = _Sets("node"), _Sets("element")
         self.surfaces = {}   # upper-case name → card
         self.instances = []
@@ -257,22 +315,39 @@ class _Deck:
     def _take_nodes(self, card: _Card) -> None:
         require(card.get("SYSTEM", "R").upper() == "R",
                 f"{card.place}: *NODE, SYSTEM={card.get('SYSTEM')}: only rectangular coordinates are read")
-        if not card.data:
+        values, counts = card.numbers()
+        if not len(counts):
             return
-        values, counts = card.numbers(float)
-        for (place, words), count in zip(card.rows(), counts):
-            require(2 <= count <= 7, f"{place}: *NODE: expected a number and three coordinates, found {len(words)} numbers")
         starts = np.concatenate([[0], np.cumsum(counts)[:-1]])
+        for line in np.flatnonzero((counts < 2) | (counts > 7))[:1]:
+            self._refuse_node(card, line, counts)
+        for line in () if card.has_points else np.flatnonzero(counts > 4):
+            length = np.linalg.norm(values[starts[line] + 4:starts[line] + counts[line]])  # that of a normal is 1
+            if length != 0.0 and abs(length - 1.0) > 1e-3:
+                self._refuse_node(card, line, counts)
         places = np.zeros((len(counts), 3))
         for axis in range(3):
             has = counts > axis + 1
             places[has, axis] = values[starts[has] + axis + 1]
         numbers = values[starts].astype(np.int64)
-        self.origins["node"].append((numbers, card, np.arange(len(numbers))))
+        self._note("node", numbers, card, np.arange(len(numbers)))
         self.nodes.append(numbers)
         self.coordinates.append(places)
         if card.get("NSET"):
             self.node_sets.add(card.get("NSET"), card.place, numbers)
+
+    @staticmethod
+    def _refuse_node(card: _Card, line: int, counts: np.ndarray) -> None:
+        commas = "" if card.has_points else "; if these are decimal commas, write points"
+        raise Refused(f"{card.place_of(line)}: *NODE: expected a number and three coordinates, found {counts[line]} numbers{commas}")
+
+    def _note(self, kind: str, numbers: np.ndarray, card: _Card, lines: np.ndarray) -> None:
+        """Where they stand. What stands twice is told early, as within a card, where there is no end of cards."""
+        self.origins[kind].append((numbers, card, lines))
+        self.n_taken[kind] += len(numbers)
+        if self.n_taken[kind] >= self.next_watch[kind]:
+            self.next_watch[kind] = 2 * self.n_taken[kind]
+            refuse_twice(self.path, kind, np.concatenate([known for known, _, _ in self.origins[kind]]), self.places_of)
 
     def places_of(self, kind: str, wanted: int) -> list[str]:
         return [card.place_of(lines[row]) for numbers, card, lines in self.origins[kind]
@@ -289,9 +364,9 @@ class _Deck:
             return
         require(own, f"{card.place}: elements of type {given} are not read; bodies may be C3D4, C3D10, C3D8, C3D20, C3D6, "
                      "C3D15, C3D5, C3D13 with any letters behind")
-        if not card.data:
+        values, counts = card.numbers()
+        if not len(counts):
             return
-        values, counts = card.numbers(int)
         width = TYPES[own].n_nodes + 1
         ends = np.cumsum(counts)
         wanted = np.arange(width, ends[-1] + width, width)
@@ -303,7 +378,7 @@ class _Deck:
                           f"{given}: the lines hold fewer or more")
         table = values.reshape(-1, width)
         lines = np.searchsorted(ends, np.arange(0, len(values), width), side="right")
-        self.origins["element"].append((table[:, 0], card, lines))
+        self._note("element", table[:, 0], card, lines)
         self.blocks.append(Block(own, table[:, 0], table[:, 1:]))
         if card.get("ELSET"):
             self.element_sets.add(card.get("ELSET"), card.place, table[:, 0])

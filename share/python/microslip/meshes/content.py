@@ -134,8 +134,8 @@ def check(content: Content, source: str) -> None:
     for kind, numbers in (("node", content.node_numbers), ("element", np.concatenate([block.numbers for block in content.blocks]))):
         large = numbers[np.abs(numbers) > _LARGEST_NUMBER]
         require(not len(large), f"{source}: {kind} {_first(large)}: expected numbers of at most {_LARGEST_NUMBER}; renumber")
-    _refuse_twice(content, source, "node", content.node_numbers)
-    _refuse_twice(content, source, "element", np.concatenate([block.numbers for block in content.blocks]))
+    refuse_twice(source, "node", content.node_numbers, content.places_of)
+    refuse_twice(source, "element", np.concatenate([block.numbers for block in content.blocks]), content.places_of)
     for block in content.blocks:
         missing = ~np.isin(block.nodes, content.node_numbers)
         for row in np.flatnonzero(missing.any(axis=1))[:1]:
@@ -152,10 +152,11 @@ def _first(numbers: np.ndarray) -> Optional[int]:
     return numbers[0] if len(numbers) else None
 
 
-def _refuse_twice(content: Content, source: str, kind: str, numbers: np.ndarray) -> None:
+def refuse_twice(source: str, kind: str, numbers: np.ndarray, places_of: Callable[[str, int], list[str]]) -> None:
+    """Raises Refused where two of the numbers are the same."""
     unique, counts = np.unique(numbers, return_counts=True)
     for number in unique[counts > 1][:1]:
-        places = content.places_of(kind, number)
+        places = places_of(kind, number)
         where = f", at {' and '.join(places[:2])}; take one out" if places else ""
         raise Refused(f"{source}: {kind} {number} stands twice{where}")
 
