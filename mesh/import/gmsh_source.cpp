@@ -25,36 +25,60 @@ bool says_binary(const std::string& preface) {
   return kind == "1";
 }
 
+std::string bytes_of(const std::filesystem::path& file, std::ifstream& stream, std::uintmax_t from,
+                     std::size_t size) {
+  std::string bytes(size, ' ');
+  stream.seekg(static_cast<std::streamoff>(from));
+  if (!stream.read(bytes.data(), static_cast<std::streamsize>(size))) {
+    throw MeshError(file.string() + ": cannot be read");
+  }
+  return bytes;
+}
+
+/// Of a binary file: a section follows upon the first, and the last one has an end. What a lost
+/// block of a disk leaves of it has none.
+void require_sections(const std::string& name, std::uintmax_t size, const std::string& preface,
+                      const std::string& ending) {
+  const auto refuse = [&](std::uintmax_t place, const char* what) {
+    throw MeshError(name + ": byte " + std::to_string(place) + ": " + what +
+                    ": a part of the file is damaged or missing; copy or export it again");
+  };
+  constexpr std::string_view first = "$EndMeshFormat";
+  const std::size_t end = preface.find(first);
+  const std::size_t next =
+      end == std::string::npos ? end : preface.find_first_not_of(" \t\r\n", end + first.size());
+  if (next != std::string::npos && preface[next] != '$') {
+    refuse(next, "expected a section, $PhysicalNames, $Entities or $Nodes");
+  }
+  if (ending.find("$End") == std::string::npos) refuse(size, "expected the $End of a section");
+}
+
 /// Of a file of any size: what is no mesh is told before it is read whole.
-std::string content_of(const std::filesystem::path& file) {
+std::string content_of(const std::filesystem::path& file, const std::string& name) {
   constexpr std::size_t longest_preface = 65536;  // before the first section
   std::error_code error;
   if (!std::filesystem::exists(file, error)) throw MeshError(file.string() + ": no such file");
   if (!std::filesystem::is_regular_file(file, error))
     throw MeshError(file.string() + ": not a file");
   std::ifstream stream(file, std::ios::binary);
-  std::string text(std::min<std::size_t>(std::filesystem::file_size(file), longest_preface), ' ');
-  const auto read = [&](std::size_t from) {
-    const auto size = static_cast<std::streamsize>(text.size() - from);
-    if (!stream.read(text.data() + from, size)) {
-      throw MeshError(file.string() + ": cannot be read");
-    }
-  };
-  read(0);
-  if (text.find('$') == std::string::npos) return text;
-  if (!says_binary(text)) require_text(file);
-  const std::size_t begun = text.size();
-  text.resize(std::filesystem::file_size(file));
-  read(std::min(begun, text.size()));
-  return text;
+  const std::uintmax_t size = std::filesystem::file_size(file);
+  const auto n = static_cast<std::size_t>(std::min<std::uintmax_t>(size, longest_preface));
+  std::string preface = bytes_of(file, stream, 0, n);
+  if (preface.find('$') == std::string::npos) return preface;
+  if (!says_binary(preface)) {
+    require_text(file);
+  } else if (size > n) {
+    require_sections(name, size, preface, bytes_of(file, stream, size - n, n));
+  }
+  return bytes_of(file, stream, 0, size);
 }
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
 }  // namespace
 
-GmshSource::GmshSource(const std::filesystem::path& file, std::string name)
-    : GmshSource(content_of(file), std::move(name)) {}
+GmshSource::GmshSource(const std::filesystem::path& file, const std::string& name)
+    : GmshSource(content_of(file, name), name) {}
 
 GmshSource::GmshSource(std::string text, std::string name)
     : text_(std::move(text)), name_(std::move(name)) {}

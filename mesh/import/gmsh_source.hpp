@@ -14,7 +14,7 @@ class GmshSource {
  public:
   /// @param name  what messages call it.
   /// @throws MeshError  the file is missing or cannot be read.
-  GmshSource(const std::filesystem::path& file, std::string name);
+  GmshSource(const std::filesystem::path& file, const std::string& name);
   /// @param text  content of a file. @param name  what messages call it.
   GmshSource(std::string text, std::string name);
 

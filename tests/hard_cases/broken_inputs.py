@@ -360,6 +360,10 @@ def meshes(sound):
             yield mesh_case(kind, "zeros behind its begin", zeros_behind(begin, 1 << 30), says="value 0")
         yield mesh_case(kind, "half of it", content[:len(content) // 2], must_refuse=kind != ".inp")
     for version, text in (("2.2", GMSH_2), ("4.1", GMSH_4)):
+        binary = f"$MeshFormat\n{version} 1 8\n\1\0\0\0\n$EndMeshFormat\n"
+        for begin in (binary, binary + "$Nodes\n", binary + "$Nodes\n30000000\n"):
+            yield mesh_case(f" binary {version}.msh", f"zeros behind {len(begin)} bytes", zeros_behind(begin, 1 << 30), says="byte ")
+
         def changed(name, old, new, count=1, **more):
             assert old in text, (name, old)
             return mesh_case(f" {version}.msh", name, text.replace(old, new, count), **more)
@@ -388,6 +392,14 @@ def meshes(sound):
         for tag in ("0", "-5", "2147483648", "9223372036854775807", "4"):
             node = "5 1 1 1\n" if version == "2.2" else "\n5\n0 0 0"
             yield changed(f"node {tag}", node, node.replace("5", tag, 1))
+    for kind, begin, line in ((".inp", BEGINS[".inp"], "1, 0.5, 0.25, 0.125\n"),
+                              (".inp", BEGINS[".inp"] + "*ELEMENT, TYPE=C3D4\n", "1, 1, 2, 3, 4\n")):
+        def repeated(path, begin=begin, line=line):
+            write(path, begin)
+            with open(path, "ab") as file:
+                for _ in range(200):  # piece by piece: memory of this process counts as that of the program
+                    file.write(line.encode() * (1_000_000 // len(line)))
+        yield mesh_case(kind, "200 MB of one " + ("element" if "ELEMENT" in begin else "node"), repeated, says="stands twice")
     yield Case("mesh", "an unknown ending", {"mesh.xyz": GMSH_2}, ["surfaces", "mesh.xyz"])
     yield Case("mesh", "no such file", {}, ["surfaces", "gone.msh"])
 

@@ -68,6 +68,24 @@ TEST_F(File, ZerosBehindARightBeginAreRefusedUnread) {
   EXPECT_NE(message.find("file:2: a byte of value 0"), std::string::npos) << message;
 }
 
+TEST_F(File, ZerosInABinaryMeshAreRefusedUnread) {
+  for (const std::string version : {"2.2", "4.1"}) {
+    const std::string format =
+        "$MeshFormat\n" + version + " 1 8\n" + std::string("\1\0\0\0\n", 5) + "$EndMeshFormat\n";
+    const auto complaint_behind = [&](const std::string& begin) {
+      return complaint([&] { return read_gmsh(holding(begin, 1U << 30U), 1.0); });
+    };
+    const std::string message = complaint_behind(format);
+    const std::string place = "byte " + std::to_string(format.size()) + ": expected a section";
+    EXPECT_NE(message.find(place), std::string::npos) << message;
+    for (const char* begun :
+         {"$Nodes\n", "$Nodes\n30000000\n", "$Entities\n", "$PhysicalNames\n"}) {
+      const std::string cut = complaint_behind(format + begun);
+      EXPECT_NE(cut.find("byte 1073741824: expected the $End"), std::string::npos) << begun << cut;
+    }
+  }
+}
+
 TEST_F(File, WhatDoesNotBeginAsStepIsNotReadWhole) {
   const std::string message = complaint([&] { return step_length_units(holding("", 1U << 30U)); });
   EXPECT_NE(message.find("not a STEP file"), std::string::npos) << message;
