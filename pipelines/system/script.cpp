@@ -2,8 +2,11 @@
 
 #include <array>
 #include <filesystem>
-#include <stdexcept>
 #include <system_error>
+
+#include <fmt/format.h>
+
+#include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -22,12 +25,16 @@ std::vector<std::string> script_command(const std::string& name) {
       std::filesystem::path(MICROSLIP_SCRIPTS),
   };
   for (const auto& folder : folders) {
-    if (std::filesystem::exists(folder / name, code)) {
+    if (std::filesystem::exists(folder / name, code) &&
+        std::filesystem::exists(folder / "../python/microslip", code)) {
       return {python, (folder / name).lexically_normal().string()};
     }
   }
-  throw std::runtime_error(name + " is not installed: looked in " + folders.back().string() +
-                           " and beside the program");
+  throw SceneError(fmt::format(
+      "a part of microslip is missing, {} or the Python package that it needs: they are expected "
+      "in {} and {}; copy the folder share of the source there",
+      name, folders.back().string(),
+      (folders.back() / "../python/microslip").lexically_normal().string()));
 }
 
 }  // namespace microslip::pipelines

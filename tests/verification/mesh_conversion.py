@@ -668,6 +668,21 @@ class Limits(Conversion):
     def test_a_missing_package_is_named(self):
         self.assertIn("python3-h5py", self.run_with("raise ModuleNotFoundError(name='h5py')")[1])
 
+    def test_a_package_that_another_needs_is_named(self):
+        code, message = self.run_with("import gone.console")
+        self.assertEqual(code, 1)
+        self.assertRegex(message, "one.vtu: this format needs the Python module gone, .*python3-meshio.*apt-get")
+
+    def test_a_package_of_which_a_folder_is_left_is_named(self):
+        os.mkdir(self.path("h5py"))
+        message = self.run_with(f"sys.path[:] = [{self.folder!r}]; import h5py; h5py.is_hdf5('one.vtu')")[1]
+        self.assertIn("one.vtu: this format needs the Debian package python3-h5py: apt-get", message)
+
+    def test_a_package_that_cannot_be_loaded(self):
+        cause = "ImportError('libgone.so: cannot open shared object file')"
+        message = self.run_with(f"raise ImportError('\\n'.join(['please read this'] * 50)) from {cause}")[1]
+        self.assertRegex(message, r"one.vtu: this format needs python3-numpy .*\(libgone.so: cannot open .*\): apt-get")
+
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)

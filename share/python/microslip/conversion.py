@@ -13,15 +13,39 @@ def problem_of(source: str, error: Exception) -> str:
     """A sentence for the user."""
     if isinstance(error, MemoryError):
         return f"{source}: reading it needs more memory than is allowed"
-    if isinstance(error, ModuleNotFoundError) and error.name in PACKAGES:
-        package = PACKAGES[error.name]
-        return f"{source}: this format needs the Debian package {package}: apt-get install {package}"
+    missing = missing_package(error)
+    if missing:
+        return f"{source}: this format needs {missing}"
     if is_of_the_disk(error):
         return (f"{source}: what it is converted to cannot be written in the temporary folder (TMPDIR): {error.strerror}; check free "
                 "space and limits of file size (ulimit -f)")
     if type(error).__name__ == "Refused":
         return str(error)
     return f"{source}: reading it failed: {type(error).__name__}: {' '.join(str(error).split())}"
+
+
+def missing_package(error: BaseException) -> str:
+    """What to install where a Python module is not there, or is damaged; else nothing. Of a package that was taken away a
+    folder may be left, which Python takes for an empty one."""
+    empty = [name for name in PACKAGES if name in sys.modules and getattr(sys.modules[name], "__file__", name) is None]
+    module = (error.name or "").partition(".")[0] if isinstance(error, ImportError) else ""
+    for name in (*empty, module):
+        if name in PACKAGES:
+            return f"the Debian package {PACKAGES[name]}: apt-get install {PACKAGES[name]}"
+    if isinstance(error, ModuleNotFoundError):
+        return (f"the Python module {module}, on which {' or '.join(PACKAGES.values())} depends, and {sys.executable} does not find "
+                "it: apt-get install --fix-broken, or install them again")
+    if isinstance(error, ImportError):
+        return (f"{' or '.join(PACKAGES.values())}, of which one cannot be loaded ({first_sentence(error)}): apt-get install --reinstall "
+                "it")
+    return ""
+
+
+def first_sentence(error: BaseException) -> str:
+    """Of the error that led to others."""
+    while error.__cause__ or error.__context__:
+        error = error.__cause__ or error.__context__
+    return " ".join(str(error).split())[:200]
 
 
 def is_of_the_disk(error: Exception) -> bool:
