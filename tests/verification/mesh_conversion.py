@@ -412,6 +412,19 @@ class NastranDecks(Conversion):
     def test_an_empty_default_of_nodes(self):
         self.assertEqual(self.deck(NASTRAN.replace("GRID,1,,", "GRDSET,,0,,,,,456\nGRID,1,,"), "deck.bdf").code, 0)
 
+    def test_one_thing_without_end_is_told_early(self):
+        for kind, head, line in (("node 1", "", "GRID,1,,0.,0.,0.\n"), ("node 1", "SOL 103\nCEND\nBEGIN BULK\n", "GRID,1,,0.,0.,0.\n"),
+                                 ("element 8", "GRID,1,,0.,0.,0.\n", "CTETRA,8,3,1,2,4,11\n")):
+            with self.subTest(kind), open(self.path("deck.bdf"), "w", encoding="utf-8") as file:
+                file.write(head)
+                for _ in range(60):
+                    file.write(line * (1_000_000 // len(line)))
+                file.flush()
+                began = time.process_time()
+                message = Converted(self.path("deck.bdf")).message
+                self.assertLess(time.process_time() - began, 2.0)
+                self.assertIn(f"{kind} stands twice, at ", message)
+
     def test_two_sets_of_one_number(self):
         """Once more the same is no harm, as in several subcases; cards of one SPC set add up."""
         self.refused(NASTRAN.replace("ENDDATA", "SET1,4,1,2\nENDDATA"), "deck.bdf:19: SET 4 is there already with other nodes", "deck.bdf:3",

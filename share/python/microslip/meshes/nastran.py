@@ -10,6 +10,7 @@ Names: "PID 3" for the elements of property 3, "SPC 1" for the nodes that set 1 
 
 from __future__ import annotations
 
+import itertools
 import os
 import re
 from typing import Iterable, Iterator, Optional, Sequence
@@ -31,6 +32,8 @@ _ORDER = {"hexahedron20": (*range(12), 16, 17, 18, 19, 12, 13, 14, 15), "wedge15
 _RIGID = re.compile(r"RBE[12]|RBAR|RROD|RTRPLT|RSPLINE|RJOINT|RSSCON|GENEL")
 # Cards that begin with C and are no elements: coordinate systems, aerodynamics, heat, cyclic symmetry, control.
 _NO_ELEMENT = re.compile(r"CORD\d|CAERO|CHBDY|CONV|CREEP|CY(AX|JOIN|SUP|SYM)|CLOAD|CMARPC|CSSCHD|CONT|CBARAO|CBUTT|CMETHOD|CSET|CAMPBLL|CSUP")
+# What no case control holds.
+_BULK = re.compile(r"(?:GRID|C(?:TETRA|HEXA|PENTA|PYRAM?|TRIA[36R]|QUAD[48R]))(?:[\s*,]|$)", re.I)
 _NAMES = re.compile(r'\$\s*(?:HM(?:NAME|SET)\s+(?:(PROP|COMP)\s+)?(\d+)\s*(?:\d+\s*)?"([^"]+)"|'
                     r"Femap.*Property\s+(\d+)\s*:\s*(.+))", re.I)
 
@@ -38,16 +41,22 @@ _NAMES = re.compile(r'\$\s*(?:HM(?:NAME|SET)\s+(?:(PROP|COMP)\s+)?(\d+)\s*(?:\d+
 def read(path: str) -> Content:
     """A Content. Raises Refused with file and line."""
     deck = _Deck(path)
-    lines = list(_lines(path, os.path.dirname(os.path.abspath(path)), (), deck))
-    if not deck.is_ended and any(re.match(r"GRID\b", text, re.I) for _, text in lines):
-        raise Refused(f"{lines[-1][0]}: {path} ends here without an ENDDATA of its own: it seems to be cut off. Copy it once more; "
-                      "if it is whole, add a last line ENDDATA")
-    bulk = next((i + 1 for i, (_, text) in enumerate(lines) if re.match(r"BEGIN\s+BULK\b", text, re.I)), 0)
-    deck.has_case_control = bulk > 0
-    for place, text in _statements(lines[:bulk]):
+    lines = deck.noted(_lines(path, os.path.dirname(os.path.abspath(path)), (), deck))
+    head = []  # up to the bulk data, or the first of it where no line says that it begins
+    for place, text in lines:
+        head.append((place, text))
+        deck.has_case_control = re.match(r"BEGIN\s+BULK\b", text, re.I) is not None
+        if deck.has_case_control or _BULK.match(text):
+            break
+    for place, text in _statements(head if deck.has_case_control else []):
         deck.take_case(place, text)
-    for place, words in _cards(lines[bulk:]):
-        deck.take(place, words)
+    for place, words in _cards(itertools.chain([] if deck.has_case_control else head, lines)):
+        try:
+            deck.take(place, words)
+        except Refused:
+            deck.refuse_cut_off()  # which may be why
+            raise
+    deck.refuse_cut_off()
     return deck.content()
 
 
@@ -145,9 +154,12 @@ class _Deck:
     def __init__(self, path: str) -> None:
         self.path = path
         self.is_ended = False   # by ENDDATA
+        self.is_read = False    # to its last line
+        self.last_place = None  # of the lines so far
+        self.has_grid = False
         self.nodes, self.coordinates, self.turned = [], [], []
         self.turned_by_default, self.all_turned = [], False  # as GRDSET says
-        self.places = {"node": [], "element": []}  # number and place of each
+        self.places = {"node": {}, "element": {}}  # of each number
         self.elements = {}      # type → rows of element number and nodes
         self.properties = {}    # property → element numbers
         self.node_lists = {}    # kind and number → [(place, node numbers)]
@@ -159,6 +171,24 @@ class _Deck:
         self.constraints = []   # place, name and set of MPC and MPCADD; of DMIG its matrix
         self.methods = set()    # of METHOD in case control
         self.eigrl = {}         # its number → (V1, V2, ND) as written
+
+    def noted(self, lines: Iterable[tuple[str, str]]) -> Iterator[tuple[str, str]]:
+        """The same lines, and how far they are read."""
+        for place, text in lines:
+            self.last_place = place
+            yield place, text
+        self.is_read = True
+
+    def refuse_cut_off(self) -> None:
+        """Nothing but ENDDATA tells the end of a deck from where it was cut off."""
+        if self.is_read and not self.is_ended and self.has_grid:
+            raise Refused(f"{self.last_place}: {self.path} ends here without an ENDDATA of its own: it seems to be cut off. Copy it "
+                          "once more; if it is whole, add a last line ENDDATA")
+
+    def _note(self, kind: str, number: int, place: str) -> None:
+        """At once: where one stands twice, hundreds of megabytes of it may follow."""
+        before = self.places[kind].setdefault(number, place)
+        require(before is place, f"{self.path}: {kind} {number} stands twice, at {before} and {place}; take one out")
 
     def take_comment(self, line: str) -> None:
         found = _NAMES.search(line)
@@ -212,11 +242,12 @@ class _Deck:
         self.node_lists.setdefault((kind, number), []).append((place, nodes))
 
     def _take_node(self, place: str, words: Sequence[str]) -> None:
+        self.has_grid = True
         number = _whole(place, words, 1, "its number")
         require(words[2] in ("", "0"),
                 f"{place}: GRID {number} lies in coordinate system {words[2]}; write the mesh out in the basic system")
         self.nodes.append(number)
-        self.places["node"].append((number, place))
+        self._note("node", number, place)
         axes = (words[6:7] or [""])[0]
         if not axes:
             self.turned_by_default.append(number)
@@ -241,7 +272,7 @@ class _Deck:
                 "order and none left out")
         own = kind[len(nodes)]
         nodes = [int(word) for word in nodes]
-        self.places["element"].append((number, place))
+        self._note("element", number, place)
         self.elements.setdefault(own, []).append([number, *(nodes[i] for i in _ORDER.get(own, range(len(nodes))))])
         self.properties.setdefault(int(words[2] or number), []).append(number)
 
@@ -262,7 +293,7 @@ class _Deck:
         require(blocks, f"{self.path}: no solid elements in it; bodies may be {', '.join(list(_SOLID)[:4])}")
         content = Content(np.array(self.nodes), np.array(self.coordinates), blocks, left_out=self.left_out,
                           turned_nodes=tuple(self.turned + self.turned_by_default * self.all_turned), modes_asked=self._modes_asked(),
-                          places_of=lambda kind, wanted: [place for number, place in self.places[kind] if number == wanted])
+                          places_of=lambda kind, wanted: [place for place in [self.places[kind].get(wanted)] if place])
         for number, elements in self.properties.items():
             content.element_sets[self.property_names.get(number, f"PID {number}")] = np.array(elements)
         self._name_nodes(content)
