@@ -23,6 +23,8 @@ del sys.argv[1:]
 # The eigensolver leaves residuals of some 1e-10, the curve is solved to 1e-11; a resonance of damping ratio 0.002 turns an
 # error of its frequency into one of 250 times that in the amplitude at a frequency, not in that of the peak.
 TOLERANCE = 1e-8
+# Where every number is multiplied by a power of two, and masses by one of four, all operations and roots round alike.
+EXACT = 1e-12
 SCENE = """
 [model]
 kind = "mesh"
@@ -118,10 +120,12 @@ class MovedBodies(unittest.TestCase):
         self.compare("metres", coordinates=lambda x: 1e-3 * x, unit="m")
 
     def test_of_a_micrometre(self):
-        self.compare("small", size=1e-6 / 0.12, coordinates=lambda x: x * 1e-6 / 0.12)
+        size = 2.0**-16
+        self.compare("small", tolerance=EXACT, size=size, coordinates=lambda x: x * size)
 
     def test_of_a_kilometre(self):
-        self.compare("large", size=1e3 / 0.12, coordinates=lambda x: x * 1e3 / 0.12)
+        size = 2.0**14
+        self.compare("large", tolerance=EXACT, size=size, coordinates=lambda x: x * size)
 
 
 if __name__ == "__main__":
