@@ -343,7 +343,10 @@ std::string effects_json(const std::vector<EffectRecord>& effects) {
 }
 
 void write_summary(const std::filesystem::path& file, const RunSummary& summary) {
-  write_whole(file, summary_json(summary) + "\n");
+  std::string text = summary_json(summary) + "\n";
+  const std::size_t message = text.find("\n  \"message\": ");
+  text.insert(text.find('\n', message + 1), blanks_behind_message, ' ');
+  write_whole(file, text);
 }
 
 }  // namespace microslip::pipelines

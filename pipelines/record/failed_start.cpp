@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include "pipelines/files/checkpoint.hpp"
+#include "pipelines/record/failure_in_place.hpp"
 #include "pipelines/record/run_folder.hpp"
 #include "pipelines/system/output_file.hpp"
+#include "pipelines/system/scene_error.hpp"
 #include "pipelines/system/sealed_bytes.hpp"
 #include "pipelines/text/json_entry.hpp"
 
@@ -31,7 +33,14 @@ void tell_failed_start(const std::filesystem::path& folder, ExitCode code,
   const std::filesystem::path summary = folder / "summary.json";
   const bool has_ended = RunFolder::has_list(folder) && std::filesystem::exists(summary) &&
                          !is_begun(folder) && !RunFolder::is_held(folder);
-  if (has_ended) write_whole(summary, summary_of_failed_start(summary, code, message));
+  if (!has_ended) return;
+  const std::string text = summary_of_failed_start(summary, code, message);
+  try {
+    write_whole(summary, text);
+  } catch (const ExhaustedError&) {
+    tell_failed_start_in_place(summary);
+    throw;
+  }
 }
 
 }  // namespace microslip::pipelines

@@ -20,6 +20,7 @@ namespace microslip::pipelines {
 
 /// The same in a folder whose run has come to its end; does nothing where there is none,
 /// or where another is writing.
+/// @throws ExhaustedError  it has no room; summary.json says so as far as it can in place.
 void tell_failed_start(const std::filesystem::path& folder, ExitCode code,
                        const std::string& message);
 

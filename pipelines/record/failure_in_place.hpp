@@ -19,4 +19,9 @@ constexpr std::string_view unfinished_message =
 /// where they say something else, or cannot be written.
 void tell_failure_in_place(const std::filesystem::path& summary, ExitCode code);
 
+/// In the summary of a run that has ended, of one that found no room to begin in its folder: exit
+/// code 4 and a message, in the blanks behind the message, which is kept with its code as
+/// `earlier`. Only the exit code where there are no such blanks. Takes no room either.
+void tell_failed_start_in_place(const std::filesystem::path& summary);
+
 }  // namespace microslip::pipelines

@@ -165,6 +165,14 @@ bool RunFolder::would_replace() const {
   });
 }
 
+std::string RunFolder::in_place(std::string message) const {
+  const std::string folder = staged().string();
+  for (std::size_t at = message.find(folder); at != std::string::npos; at = message.find(folder)) {
+    message.replace(at, folder.size(), folder_.string());
+  }
+  return message;
+}
+
 void RunFolder::publish() {
   const std::vector<std::string> files = files_below(staged());
   if (files.empty()) return;

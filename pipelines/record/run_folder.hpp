@@ -34,6 +34,9 @@ class RunFolder {
   /// Whether a run is writing there.
   [[nodiscard]] static bool is_held(const std::filesystem::path& folder);
   [[nodiscard]] std::filesystem::path staged() const { return folder_ / "checkpoint" / "staged"; }
+  /// What is told of staged files, of the places that they are for: where they are staged they are
+  /// gone when the message is read.
+  [[nodiscard]] std::string in_place(std::string message) const;
   /// Something that this run has not written stands in the place of what is staged.
   [[nodiscard]] bool would_replace() const;
 

@@ -85,10 +85,17 @@ RunRecord::RunRecord(const SceneDescription& scene, const RunOptions& options)
   // An earlier run's scene, log and checkpoint stay until this scene has proved itself.
   if (start_ == RunStart::resumed || !std::filesystem::exists(folder_ / "summary.json")) {
     begin();
-  } else {
-    put_summary_aside();
+    write_summary(folder_ / "summary.json", summary_);
+    return;
   }
-  write_summary(folder_ / "summary.json", summary_);
+  put_summary_aside();
+  try {
+    write_summary(folder_ / "summary.json", summary_);
+  } catch (const ExhaustedError&) {
+    take_summary_back();
+    tell_failed_start_in_place(folder_ / "summary.json");
+    throw;
+  }
 }
 
 void RunRecord::begin() {
@@ -111,6 +118,12 @@ void RunRecord::put_summary_aside() {
   std::error_code no_links;
   std::filesystem::create_hard_link(folder_ / "summary.json", aside, no_links);
   if (no_links) std::filesystem::rename(folder_ / "summary.json", aside);
+}
+
+void RunRecord::take_summary_back() {
+  std::error_code ignored;  // it was linked, and another name for the same stays
+  std::filesystem::rename(earlier_summary(folder_), folder_ / "summary.json", ignored);
+  std::filesystem::remove(earlier_summary(folder_), ignored);  // both are one: renamed to itself
 }
 
 void RunRecord::restore_summary(ExitCode code, const std::string& message) {
@@ -170,7 +183,10 @@ int RunRecord::run(const std::function<void()>& stages) {
     return finish();
   } catch (const std::exception& error) {
     end_watch();
-    fail(exit_code_of(error), error.what());
+    const ExitCode code = exit_code_of(error);
+    const std::string message = place_.in_place(error.what());
+    fail(code, message);
+    if (code == ExitCode::exhausted) throw ExhaustedError(message);  // no room, perhaps for a file
     throw;
   }
 }
@@ -603,7 +619,7 @@ void RunRecord::keep_report() {
     return;
   }
   for (const std::string& warning : write_report(folder_, staged_, summary_json(ended))) {
-    progress_.warning(warning);
+    progress_.warning(place_.in_place(warning));
   }
 }
 

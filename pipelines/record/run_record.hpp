@@ -159,6 +159,7 @@ class RunRecord {
   /// Until then its summary.json is kept aside, and put back if this one comes to nothing,
   /// which it then tells.
   void put_summary_aside();
+  void take_summary_back();
   void restore_summary(ExitCode code, const std::string& message);
 
   std::filesystem::path folder_;

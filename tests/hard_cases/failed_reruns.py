@@ -9,6 +9,7 @@ usage: failed_reruns.py MICROSLIP WORK_FOLDER
 """
 import json
 import os
+import resource
 import shutil
 import subprocess
 import sys
@@ -75,9 +76,10 @@ class FailedReruns(unittest.TestCase):
     def path(*names):
         return os.path.join(WORK, *names)
 
-    def run_it(self, code, *options):
+    def run_it(self, code, *options, largest_file=resource.RLIM_INFINITY):
         finished = subprocess.run([PROGRAM, "run", "scene.toml", "-o", "run", "--without", "plots", "-q", *options], cwd=WORK,
-                                  capture_output=True, text=True, env=without_plots())
+                                  capture_output=True, text=True, env=without_plots(),
+                                  preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (largest_file, largest_file)))
         self.assertEqual(finished.returncode, code, finished.stderr)
         return finished.stderr
 
@@ -104,6 +106,27 @@ class FailedReruns(unittest.TestCase):
         self.assertEqual(summary["earlier"], {"exit_code": 0, "message": ""})
         self.assertEqual(len(summary["curves"]), 1)
         self.assertEqual(self.files(), self.results)
+
+    def test_no_room_to_say_that_it_failed(self):
+        """A limit of file size, below the size of summary.json."""
+        for changes in ([], ['supports.clamped=["rot"]'], ["response.frequenzy=3"]):
+            with self.subTest(changes):
+                self.run_it(4, *settings(*changes), largest_file=4096)
+                self.assert_failed(4, "no room")
+                self.assertEqual(os.listdir(self.path("run", "checkpoint")), ["files.txt"])
+        self.run_it(1, *settings('supports.clamped=["rot"]'))
+        self.assert_failed(1, '"rot"')
+        self.run_it(0)
+        self.assertNotIn("earlier", self.summary())
+
+    def test_no_room_for_a_result(self):
+        """The user is told of the place that it is for, not of that where it was staged and is gone."""
+        sizes = [os.path.getsize(self.path("run", name)) for name in ("modes.vtu", "model.h5")]
+        for size in sizes:
+            error = self.run_it(4, largest_file=size - 1)
+            self.assertNotIn("staged", error)
+            self.assertNotIn("staged", self.summary()["message"])
+            self.assertRegex(error, r"microslip: run/[\w.]+: cannot be written: ")
 
     def test_a_name_that_the_mesh_does_not_have(self):
         self.run_it(1, *settings('supports.clamped=["rot"]'))

@@ -137,7 +137,7 @@ def write_whole(path: str, content: bytes) -> None:
         with contextlib.suppress(OSError):
             os.unlink(part)
         if isinstance(error, OSError) and error.errno in NO_ROOM:
-            raise RoomError(f"{shown(path)}: cannot be written: {error.strerror}; {MORE_ROOM}") from None
+            raise RoomError(f"{path}: cannot be written: {error.strerror}; {MORE_ROOM}") from None
         raise
 
 

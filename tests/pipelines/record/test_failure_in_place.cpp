@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "pipelines/files/write_summary.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace microslip::pipelines::test_failure_in_place {
@@ -51,6 +52,34 @@ TEST_F(Summary, WhatSaysHowItEndedIsLeftAsItIs) {
   std::filesystem::remove(file());
   tell_failure_in_place(file(), ExitCode::exhausted);
   EXPECT_FALSE(std::filesystem::exists(file()));
+}
+
+TEST_F(Summary, ARunThatFindsNoRoomIsToldInTheBlanks) {
+  RunSummary ended;
+  ended.exit_code = ExitCode::incomplete;
+  ended.message = "stopped, \"here\"";
+  write_summary(file(), ended);
+  const Json before = Json::parse(text());
+  const std::size_t size = text().size();
+  for (int run = 0; run < 2; ++run) {  // the second finds what the first has said
+    tell_failed_start_in_place(file());
+    EXPECT_EQ(text().size(), size);
+    Json after = Json::parse(text());
+    EXPECT_EQ(after["exit_code"], 4);
+    EXPECT_NE(after["message"].get<std::string>().find("ended with exit code 3"),
+              std::string::npos);
+    EXPECT_EQ(after["earlier"], (Json{{"exit_code", 3}, {"message", ended.message}}));
+    after.erase("earlier");
+    after["exit_code"] = before["exit_code"];
+    after["message"] = before["message"];
+    EXPECT_EQ(after, before);
+  }
+}
+
+TEST_F(Summary, WithoutBlanksTheExitCodeAlone) {
+  write(0, "");
+  tell_failed_start_in_place(file());
+  EXPECT_EQ(Json::parse(text()), (Json{{"exit_code", 4}, {"message", ""}, {"title", "é"}}));
 }
 
 }  // namespace
