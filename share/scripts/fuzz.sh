@@ -1,9 +1,9 @@
 #!/bin/sh
-# Fuzzes the readers of TOML, tables, units, formulas, meshes, STEP files and matrices with libFuzzer,
+# Fuzzes the readers of TOML, of --set, tables, units, formulas, meshes, STEP files and matrices with libFuzzer,
 # AddressSanitizer and UndefinedBehaviorSanitizer. What it finds stays in build/fuzz, and ends the script with an error.
 #
 #   share/scripts/fuzz.sh [SECONDS [READER …]]     60 s each by default
-#                                                  readers: toml csv units expression msh step matrix nodes
+#                                                  readers: toml overrides csv units expression msh step matrix nodes
 #                                                  MICROSLIP_FUZZ_BUILD: the folder, build/fuzz by default
 #                                                  MICROSLIP_FUZZ_RUNS: ended after as many inputs, if that is sooner
 set -eu
@@ -11,7 +11,7 @@ root=$(cd "$(dirname "$0")/../.." && pwd)
 "$root/share/scripts/setup.sh" --fuzz
 seconds=${1:-60}
 [ "$#" -eq 0 ] || shift
-[ "$#" -gt 0 ] || set -- toml csv units expression msh step matrix nodes
+[ "$#" -gt 0 ] || set -- toml overrides csv units expression msh step matrix nodes
 build="${MICROSLIP_FUZZ_BUILD:-$root/build/fuzz}"
 mkdir -p "$build"
 cd "$root"
@@ -20,6 +20,7 @@ sources_of() {
   text="pipelines/text"
   case "$1" in
     toml) echo "$text/toml_text.cpp" ;;
+    overrides) echo "pipelines/scene/scene_overrides.cpp $text/toml_text.cpp" ;;
     csv) echo "$text/csv_table.cpp $text/units.cpp $text/nearest_name.cpp" ;;
     units) echo "$text/units.cpp $text/nearest_name.cpp" ;;
     expression) echo "$text/expression.cpp $text/nearest_name.cpp" ;;

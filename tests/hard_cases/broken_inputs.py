@@ -535,25 +535,53 @@ def damaged(content, random_):
     return f"{way} {at}", ways[way]()
 
 
-def random_cases(sound, source, n, seed):
+# Of share/scenes: a scene, the file in it that is damaged, the others that it needs.
+OTHER_CODES = {"frd": ("plate_calculix", "plate.frd", ["plate.inp"]), "pch": ("plate_nastran", "plate.pch", ["plate.bdf"]),
+               "deck": ("plate_nastran", "plate.bdf", ["plate.pch"]), "npz": ("plate_numpy", "plate.npz", ["plate.inp"]),
+               "modes med": ("plate_med", "plate.med", []),
+               "csv": ("plate_table", "plate.csv", ["plate.inp"]),
+               "mtx": ("plate_matrices", "stiffness.mtx", ["mass.mtx", "nodes.csv", "coarse.inp"]),
+               "nodes": ("plate_matrices", "nodes.csv", ["stiffness.mtx", "mass.mtx", "coarse.inp"])}
+
+
+def other_code_files(source, kind):
+    """{name: bytes} of a scene, and the name of the file to damage."""
+    scene, damaged_one, others = OTHER_CODES[kind]
+    files = {}
+    for name, place in (("scene.toml", scene + ".toml"), *(("plate/" + one, "plate/" + one) for one in [damaged_one, *others])):
+        with open(os.path.join(source, "share", "scenes", place), "rb") as file:
+            files[name] = file.read()
+    return files, "plate/" + damaged_one
+
+
+def run_of(program, folder):
+    """summary.json of a run, which `report` reads."""
+    scene = os.path.join(folder, "run.toml")
+    write(scene, MODAL)
+    subprocess.run([program, "run", scene, "-o", os.path.join(folder, "run"), "--without", "plots", "-q"], check=True,
+                   capture_output=True)
+    with open(os.path.join(folder, "run", "summary.json"), "rb") as file:
+        return file.read()
+
+
+def random_cases(sound, source, summary, n, seed):
     random_ = random.Random(seed)
-    with open(os.path.join(source, "share", "scenes", "plate", "plate.frd"), "rb") as file:
-        modes = file.read()
-    with open(os.path.join(source, "share", "scenes", "plate_calculix.toml"), encoding="utf-8") as file:
-        modes_scene = file.read()
-    with open(os.path.join(source, "share", "scenes", "plate", "plate.inp"), "rb") as file:
-        plate = file.read()
-    kinds = ["scene", "table", "cycle", "frd", *sound]
+    others = {kind: other_code_files(source, kind) for kind in OTHER_CODES}
+    kinds = ["scene", "table", "cycle", "summary", *others, *sound]
     for number in range(n):
         kind = kinds[number % len(kinds)]
         more = {"must_refuse": False, "says": ""}
         if kind in sound:
             name, content = damaged(sound[kind], random_)
             yield mesh_case(kind, f"{seed}.{number} {name}", content, **more)
-        elif kind == "frd":
-            name, content = damaged(modes, random_)
-            yield Case("modes of other codes", f"{seed}.{number} {name}",
-                       {"scene.toml": modes_scene, "plate/plate.frd": content, "plate/plate.inp": plate}, ["check", "scene.toml"], **more)
+        elif kind in others:
+            files, place = others[kind]
+            name, content = damaged(files[place], random_)
+            yield Case("modes of other codes", f"{seed}.{number} {kind} {name}", {**files, place: content}, ["check", "scene.toml"],
+                       **more)
+        elif kind == "summary":
+            name, content = damaged(summary, random_)
+            yield Case("summary", f"{seed}.{number} {name}", {"run/summary.json": content}, ["report", "run"], **more)
         else:
             text, make = {"scene": (MODAL, scene_case), "table": (POINTS, table_case), "cycle": (CYCLES, cycle_case)}[kind]
             name, content = damaged(text.encode(), random_)
@@ -656,7 +684,7 @@ def main(program, source, work, n, seed, whole):
               *other_codes(source), *steps(source)]
     if not whole:
         listed = listed[::10]
-    cases = [*listed, *random_cases(sound, source, n, seed)]
+    cases = [*listed, *random_cases(sound, source, run_of(program, work), n, seed)]
     for number, case in enumerate(cases):
         campaign.case(number, case)
     print(f"{len(cases)} broken inputs in {time.monotonic() - began:.0f} s, {n} of them damaged at random from seed {seed}:")
