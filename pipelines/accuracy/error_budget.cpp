@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "pipelines/accuracy/errors_in_time.hpp"
 #include "pipelines/accuracy/with_effect.hpp"
 #include "pipelines/effects/effect_choice.hpp"
 #include "pipelines/response/highest_peak.hpp"
@@ -385,6 +386,45 @@ bool leaves_modes_out(const ReducedModel& model, const SceneDescription& scene,
          opens_and_closes(result.curve);
 }
 
+/// What is not told of a motion integrated in time: the models that could are not integrated.
+std::vector<std::string> unknown_in_time(const SceneDescription& scene,
+                                         const RicherModels& richer) {
+  std::vector<std::string> sources = richer.unknown;
+  for (const RicherModel& other : richer.models) {
+    if (other.source != "instants") sources.push_back(other.source);
+  }
+  const bool meshed = !std::holds_alternative<ModalModel>(scene.model);
+  if (sources.empty() && meshed) sources = {"mesh", "basis", "cells", "fit"};
+  return sources;
+}
+
+/// Of a motion integrated in time.
+CurveBudget budget_in_time(const ReducedModel& model, const SceneDescription& scene,
+                           const RicherModels& richer, const CurveResult& result, double load) {
+  CurveBudget budget;
+  budget.unknown = unknown_in_time(scene, richer);
+  const solver::ResponsePoint& largest = *highest_peak(result.curve);
+  add_energy(budget, largest);
+  const auto begin = std::chrono::steady_clock::now();
+  if (const auto closer = integrated_with_events(model, scene, result, load)) {
+    add_rows(
+        budget, result.name, "steps",
+        changes(budget, largest, {closer->amplitude, largest.frequency, closer->energy.friction}),
+        ErrorKind::solved, seconds_since(begin));
+  } else {
+    budget.unknown.emplace_back("steps");
+  }
+  if (result.curve.points.size() == 1) return budget;  // the motion at that frequency
+  if (const auto top = top_between(result.curve)) {
+    GoalEffects all = of_amplitude_alone(budget, top->amplitude);
+    all.frequency = top->frequency;
+    add_rows(budget, result.name, "frequencies", all, ErrorKind::estimated, 0.0);
+  } else {
+    budget.unknown.emplace_back("frequencies");
+  }
+  return budget;
+}
+
 }  // namespace
 
 CurveBudget error_budget(const ReducedModel& model, const SceneDescription& scene,
@@ -395,9 +435,8 @@ CurveBudget error_budget(const ReducedModel& model, const SceneDescription& scen
   CurveBudget budget;
   const auto* load = std::get_if<double>(&result.load);
   const solver::ResponsePoint* peak = highest_peak(result.curve);
-  if (peak == nullptr || result.integrated || !(peak->amplitude > 0.0)) {
-    return budget;
-  }
+  if (peak == nullptr || !(peak->amplitude > 0.0)) return budget;
+  if (result.integrated) return budget_in_time(model, scene, richer, result, *load);
   if (!result.curve.complete) {  // its highest peak need not be there
     budget.unknown = richer.unknown;
     budget.unknown.emplace_back("harmonics");

@@ -33,8 +33,9 @@ struct CurveBudget {
   [[nodiscard]] bool has_bar() const;
 };
 
-/// @param result  a curve of the model, solved by harmonic balance, or a linear limit: modes that
-///                are given leave that without rows.
+/// @param result  a curve of the model, or a linear limit: modes that are given leave that without
+///                rows. Of motions integrated in time the steps and the frequencies between have
+///                rows (errors_in_time.hpp), the discretisation of the body none.
 [[nodiscard]] CurveBudget error_budget(const ReducedModel& model, const SceneDescription& scene,
                                        const RicherModels& richer, const CurveResult& result);
 

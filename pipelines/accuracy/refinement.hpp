@@ -59,7 +59,8 @@ struct SpentSeconds {
 /// Of all ways to refine the sources, alone and together, the cheapest that should bring every bar
 /// below the tolerance: errors of cells fall as their number grows, of the mesh with its size, of
 /// fit and directions altogether, of harmonics to the tolerance of their choice. Where none does,
-/// the cheapest that comes as near as can be. A mesh whose error is not known is refined until it is.
+/// the cheapest that comes as near as can be. A mesh whose error is not known is refined until it
+/// is.
 /// @return empty: nothing worth a round can be refined; `left` names sources that cannot,
 ///         though they matter.
 [[nodiscard]] std::optional<Refinement> refinement(const SceneDescription& scene,

@@ -291,8 +291,8 @@ struct SceneDescription {
   return file != nullptr && !file->modes && !file->matrices;
 }
 
-/// So many times as large as those of the scene elements can be made here: elements that the mesh of
-/// a file was cut into have larger ones.
+/// So many times as large as those of the scene elements can be made here: those that elements of a
+/// file were cut into have larger ones.
 [[nodiscard]] inline double largest_factor(const SceneDescription& scene) {
   if (element_size_of(scene)) return std::numeric_limits<double>::infinity();
   const auto* file = std::get_if<MeshFileModel>(&scene.model);

@@ -44,7 +44,8 @@ enum class ErrorKind : std::uint8_t {
 struct ErrorRow {
   std::string curve;  ///< its name, or "optimum"
   std::string goal;   ///< one of the above, or of goal_names.hpp
-  /// Mesh, basis, cells, fit, harmonics, second_direction, instants, newton, eigensolver.
+  /// Mesh, basis, cells, fit, harmonics, second_direction, instants, newton, eigensolver; of
+  /// motions integrated in time steps, frequencies.
   std::string source;
   double effect =
       0.0;  ///< relative, signed: what would be added with the source refined to its end
