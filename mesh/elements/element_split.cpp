@@ -214,6 +214,7 @@ ElementSplit element_split(ElementType type, int diagonal) {
 ElementSplit midside_split(ElementType type) {
   return split_into({{solid(type), rows_of(reference_nodes(linear(type)))}}, type, true);
 }
+
 FaceSplit face_split(FaceType type) {
   const int n = n_corners(type);
   const FaceType with_corners = n == 3 ? FaceType::tri3 : FaceType::quad4;

@@ -415,7 +415,9 @@ CurveBudget budget_in_time(const ReducedModel& model, const SceneDescription& sc
     budget.unknown.emplace_back("steps");
   }
   if (result.curve.points.size() == 1) return budget;  // the motion at that frequency
-  if (const auto top = top_between(result.curve)) {
+  // Of a sweep that ended early the largest motion need not be there.
+  const auto top = result.curve.complete ? top_between(result.curve) : std::nullopt;
+  if (top) {
     GoalEffects all = of_amplitude_alone(budget, top->amplitude);
     all.frequency = top->frequency;
     add_rows(budget, result.name, "frequencies", all, ErrorKind::estimated, 0.0);
