@@ -241,6 +241,11 @@ class IndicatorsAreFooled(unittest.TestCase):
                       "response.maps=[]")
         self.assertGreater(effect(summary, "moments")["indicator"], effect(summary, "moments")["threshold"])
         self.assertIs(effect(summary, "nonlinearity")["simulated"], True)
+        without = run("corner_off", f"{SCENES}/chain_2dof_moment.toml", "response.preload=[30]", "response.harmonics=1",
+                      "response.maps=[]", "effects.moments=off")
+        changes = [abs(amplitude / peaks(without)[name] - 1) for name, amplitude in peaks(summary).items()]
+        self.assertGreater(max(changes), 0.02)
+        self.assertLess(abs(effect(without, "moments")["bound"] - max(changes)), 0.1 * max(changes))
 
     def test_a_single_frequency_beside_a_gap(self):
         path = scene("gap", preload=-60, normal=0.5)
