@@ -24,7 +24,6 @@ constexpr double closest_choice = 1e-5;   // of harmonics
 constexpr double step_on_the_way = 0.15;  // of the error of harmonics
 constexpr double usual_error = 0.3;       // of one harmonic, where it could not be told
 constexpr int most_points = 20000;        // of a patch
-constexpr int most_cuts = 3;              // of the elements of a file
 constexpr double worth_a_round = 0.9;     // of the bar: less is gained
 constexpr double moves_away = 0.02;       // of harmonics: other errors were told at another peak
 // Of the growth of the curves: a search solves few of them, and begins with few harmonics. Measured
@@ -175,12 +174,14 @@ std::string times_text(int n) {
 /// default blade of 10 mm: the first leaves 0.36 to 0.46 of what jumps of stress tell, both 0.03 to
 /// 0.1; of its first frequency with four nodes a tetrahedron, 2.5 times too high, midside nodes
 /// leave a hundredth of the error.
-Moves moves_of_mesh_file(const SceneDescription& scene, bool linear) {
+Moves moves_of_mesh_file(const SceneDescription& scene, const SpentSeconds& spent) {
   constexpr double times = 6.0;  // as many nodes: 4 of bricks, 7.5 of tetrahedra
   Moves moves;
   if (!is_mesh_refined_here(scene)) return moves;
+  const bool linear = spent.linear_elements;
   const int now = std::get<MeshFileModel>(scene.model).refinement;
-  for (int more = linear ? 0 : 1; now + more <= most_cuts; ++more) {
+  const int most = std::min(most_cuts - now, spent.cuts_in_memory);
+  for (int more = linear ? 0 : 1; more <= most; ++more) {
     const double size = std::ldexp(1.0, -more);
     const SceneDescription cut = with_elements_scaled(scene, size);
     std::string text =
@@ -199,7 +200,7 @@ Moves moves_of_mesh_file(const SceneDescription& scene, bool linear) {
 
 Moves moves_of_mesh(const SceneDescription& scene, const SpentSeconds& spent) {
   const std::optional<double> given = element_size_of(scene);
-  if (!given) return moves_of_mesh_file(scene, spent.linear_elements);
+  if (!given) return moves_of_mesh_file(scene, spent);
   const auto* blade = std::get_if<BladeModel>(&scene.model);
   const double now =
       blade != nullptr ? std::min(1.0, blade->sizes.edge_size.value_or(*given) / *given) : 1.0;
@@ -463,20 +464,24 @@ std::map<std::string, Moves> all_moves(const SceneDescription& scene,
   return result;
 }
 
-/// The key that keeps this program from having less of an error.
-std::string key_of(const std::string& source, const SceneDescription& scene) {
+/// What keeps this program from having less of an error, where a user can do something about it.
+std::string obstacle_to(const std::string& source, const SceneDescription& scene,
+                        const SpentSeconds& spent) {
   const bool one_harmonic = setting_of(scene, "higher_harmonics") == "off";
-  return source == "harmonics" && one_harmonic ? " (effects.higher_harmonics = \"off\")" : "";
+  if (source == "harmonics" && one_harmonic) return " (effects.higher_harmonics = \"off\")";
+  const bool no_room = source == "mesh" && is_mesh_refined_here(scene) && spent.cuts_in_memory == 0;
+  return no_room ? " (elements cut in eight need more memory than there is)" : "";
 }
 
 /// Sources without a move whose error is no small part of the tolerance.
 std::string stuck_sources(const std::map<std::string, Moves>& moves, const SceneDescription& scene,
-                          const std::vector<Errors>& errors, double tolerance) {
+                          const std::vector<Errors>& errors, double tolerance,
+                          const SpentSeconds& spent) {
   constexpr double small = 0.05;
   std::vector<std::string> names;
   for (const auto& [source, own] : moves) {
     if (own.size() == 1 && largest_of(errors, source) > small * tolerance) {
-      names.push_back(source + key_of(source, scene));
+      names.push_back(source + obstacle_to(source, scene, spent));
     }
   }
   return fmt::format("{}", fmt::join(names, ", "));
@@ -525,7 +530,7 @@ std::optional<Refinement> refinement(const SceneDescription& scene,
                           : 0.0;
   const std::vector<Errors> errors = errors_of(budgets, scene.accuracy.goals, mesh);
   const std::map<std::string, Moves> moves = all_moves(scene, errors, tolerance, spent);
-  left = stuck_sources(moves, scene, errors, tolerance);
+  left = stuck_sources(moves, scene, errors, tolerance, spent);
   const Plans plans(errors, moves, spent, tolerance);
   const Plan& plan = plans.best();
   Refinement result{.scene = scene,

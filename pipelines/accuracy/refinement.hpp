@@ -13,6 +13,8 @@
 
 namespace microslip::pipelines {
 
+inline constexpr int most_cuts = 3;  // of the elements of a file, as model.refinement takes
+
 /// A scene with finer settings.
 struct Refinement {
   SceneDescription scene;
@@ -36,7 +38,8 @@ struct SpentSeconds {
   std::optional<double> inexact_errors{};
   bool extrapolated = false;  ///< the modes: the error of the mesh falls faster
   bool linear_elements = false;
-  int jobs = 1;  ///< cores that share curves and their errors
+  int cuts_in_memory = most_cuts;  ///< of the elements of a file, beyond those that are made
+  int jobs = 1;                    ///< cores that share curves and their errors
   /// By the clock: maps and the search for a best value, with the curves as they are.
   double after = 0.0;
   double available = std::numeric_limits<double>::infinity();  ///< time there is for all of it

@@ -14,6 +14,7 @@
 #include "pipelines/stages/missed_effects.hpp"
 #include "pipelines/stages/solved_again.hpp"
 #include "pipelines/stages/stage_seconds.hpp"
+#include "pipelines/structure/solver_memory.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/machine_speed.hpp"
 #include "pipelines/text/rounded.hpp"
@@ -40,6 +41,7 @@ double seconds_after(const Solution& solution, const RunOptions& options) {
 }
 
 SpentSeconds spent_on(const Solution& solution, const RunOptions& options) {
+  const SceneDescription& scene = solution.scene;
   SpentSeconds spent;
   spent.available = seconds_to_work();
   spent.jobs = options.jobs;
@@ -48,6 +50,8 @@ SpentSeconds spent_on(const Solution& solution, const RunOptions& options) {
     spent.structure = seconds_of_structure(solution.structure->modes);
     spent.extrapolated = solution.structure->coarser != nullptr;
     spent.linear_elements = !mesh::has_midside_nodes(solution.structure->mesh);
+    spent.cuts_in_memory =
+        cuts_in_memory(solution.structure->mesh, scene.settings.basis.solver, most_cuts);
   }
   double inexact_curves = 0.0;
   double inexact_errors = 0.0;

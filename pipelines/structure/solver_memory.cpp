@@ -15,6 +15,21 @@ constexpr double at_least = 0.7;  // of the forecast
 
 std::string gigabytes(double megabytes) { return fmt::format("{:.1f} GB", 1e-3 * megabytes); }
 
+bool fits(const SolverMemory& memory) {
+  return at_least * memory.needed_mb() <= memory.available.megabytes;
+}
+
+// Of each element cut along each edge: eight times the unknowns take at least so many times as much
+// memory, and a factor about n^1.25 (memory_before_mesh.hpp).
+constexpr double at_least_when_cut = 8.0;
+constexpr double usual_when_cut = 13.5;
+
+SolverMemory when_cut(SolverMemory memory, double times) {
+  memory.direct_mb *= times;
+  memory.iterative_mb *= times;
+  return memory;
+}
+
 }  // namespace
 
 fem::AvailableMemory available_memory() {
@@ -43,18 +58,23 @@ std::string memory_warning(const SolverMemory& memory) {
 }
 
 void require_memory(const mesh::Mesh& mesh, fem::SolverKind solver) {
-  SolverMemory memory = solver_memory(mesh, solver);
-  if (at_least * memory.needed_mb() <= memory.available.megabytes) return;
-  throw fem::MemoryError("out of memory: " + memory_warning(memory));
+  const SolverMemory memory = solver_memory(mesh, solver);
+  if (!fits(memory)) throw fem::MemoryError("out of memory: " + memory_warning(memory));
 }
 
 void require_memory_when_cut(const mesh::Mesh& mesh, fem::SolverKind solver) {
-  constexpr double times = 8.0;
-  SolverMemory memory = solver_memory(mesh, solver);
-  memory.direct_mb *= times;
-  memory.iterative_mb *= times;
-  if (at_least * memory.needed_mb() <= memory.available.megabytes) return;
+  const SolverMemory memory = when_cut(solver_memory(mesh, solver), at_least_when_cut);
+  if (fits(memory)) return;
   throw fem::MemoryError("out of memory: of elements cut in eight " + memory_warning(memory));
+}
+
+int cuts_in_memory(const mesh::Mesh& mesh, fem::SolverKind solver, int most) {
+  SolverMemory memory = solver_memory(mesh, solver);
+  for (int cuts = 0; cuts < most; ++cuts) {
+    memory = when_cut(memory, usual_when_cut);
+    if (!fits(memory)) return cuts;
+  }
+  return most;
 }
 
 std::string with_iterative_way(std::string text) {

@@ -39,6 +39,9 @@ void require_memory(const mesh::Mesh& mesh, fem::SolverKind solver);
 /// as much at least. @throws fem::MemoryError  as above.
 void require_memory_when_cut(const mesh::Mesh& mesh, fem::SolverKind solver);
 
+/// How often elements may be cut, up to `most` times, before memory is most likely too little.
+[[nodiscard]] int cuts_in_memory(const mesh::Mesh& mesh, fem::SolverKind solver, int most);
+
 /// What the direct way has ended with, with the way that takes less memory and its key.
 [[nodiscard]] std::string with_iterative_way(std::string text);
 

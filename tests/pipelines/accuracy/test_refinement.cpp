@@ -204,6 +204,19 @@ TEST(Refinement, CutsTheElementsOfAMeshFile) {
   EXPECT_EQ(left, "mesh");
 }
 
+TEST(Refinement, CutsNoMoreThanMemoryHolds) {
+  std::string left;
+  const std::vector<CurveBudget> told{budget({{"mesh", 0.06}})};
+  SpentSeconds small = spent;
+  small.cuts_in_memory = 1;
+  const auto step = refinement(mesh_file(0), told, tolerance, small, left);
+  ASSERT_TRUE(step.has_value());
+  EXPECT_EQ(step->text, "elements of the file cut once") << "though twice would be wanted";
+  small.cuts_in_memory = 0;
+  EXPECT_FALSE(refinement(mesh_file(0), told, tolerance, small, left).has_value());
+  EXPECT_NE(left.find("memory"), std::string::npos) << left;
+}
+
 // Of linear elements, and of bodies that rotate, the jumps of stress do not tell the error.
 TEST(Refinement, RefinesAMeshOfAFileUntilItsErrorIsKnown) {
   CurveBudget told = budget({{"cells", 1e-4}});
