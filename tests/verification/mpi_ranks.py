@@ -149,6 +149,7 @@ class Ranks(unittest.TestCase):
             begin = time.monotonic()
             error = call(on_ranks(n, "run", NUMPY, *LONG, "--budget", "4s", "-o", path(f"late_{n}")), code=4)
             self.assertLess(time.monotonic() - begin, 15.0)
+            # Which one is told: whether the time is over when the curves have used up their shares.
             self.assertRegex(error, "out of time|its share of accuracy.budget, [0-9.]+ s, is over")
             self.assertNotIn("was ended", error)  # every curve has ended by itself
             self.assertEqual(len(summary(f"late_{n}")["curves"]), 4)

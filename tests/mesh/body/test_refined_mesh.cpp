@@ -85,7 +85,6 @@ std::vector<Eigen::Index> nodes_where(const Mesh& mesh, bool (*is_there)(Eigen::
   return nodes;
 }
 
-// As gmsh and this project number quadratic elements: one node on each edge, the given ones first.
 TEST(QuadraticMesh, IsTheSameBodyWithANodeOnEachEdge) {
   for (const ElementType type : all_element_types) {
     SCOPED_TRACE(name(type));
