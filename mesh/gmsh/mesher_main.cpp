@@ -1,9 +1,10 @@
 /// @file
 /// The program microslip-mesher: reads a job from standard input, does it, writes one file.
-///   microslip-mesher OUTPUT MEMORY_MB PARENT_PID < job
+///   microslip-mesher SCRATCH OUTPUT MEMORY_MB PARENT_PID < job
 /// The first word of the job is its kind (blade, step_faces, step_mesh); lines of "key value"
 /// follow. It limits its own memory, and when its parent dies or it is asked to end, it goes and
-/// takes what it has written along: gmsh can crash, hang or eat memory on bad geometry.
+/// takes what it has written along: gmsh can crash, hang or eat memory on bad geometry. It puts
+/// the whole file in its place itself, so that a parent that dies meanwhile leaves nothing beside.
 
 #include <sys/personality.h>
 #include <sys/prctl.h>
@@ -13,6 +14,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <map>
 #include <string>
@@ -51,10 +53,10 @@ void limit_memory([[maybe_unused]] double megabytes) {
 #endif
 }
 
-const char* output = nullptr;
+const char* scratch = nullptr;
 
 extern "C" void leave_nothing(int /*signal*/) {
-  ::unlink(output);
+  ::unlink(scratch);
   ::_exit(1);
 }
 
@@ -110,23 +112,27 @@ void keep_addresses(char** argv) {
 
 int main(int argc, char** argv) {
   keep_addresses(argv);
-  if (argc != 4) {
-    std::cerr << "usage: microslip-mesher OUTPUT MEMORY_MB PARENT_PID < job\n";
+  if (argc != 5) {
+    std::cerr << "usage: microslip-mesher SCRATCH OUTPUT MEMORY_MB PARENT_PID < job\n";
     return 1;
   }
-  output = argv[1];
-  end_with(std::atoi(argv[3]));
-  const double memory = std::atof(argv[2]);
+  scratch = argv[1];
+  end_with(std::atoi(argv[4]));
+  const double memory = std::atof(argv[3]);
   if (!(memory > 0.0)) {
     std::cerr << "the memory limit must be a number above 0\n";
     return 1;
   }
   limit_memory(memory);
   try {
-    do_job(argv[1]);
+    do_job(scratch);
+    std::filesystem::rename(scratch, argv[2]);
   } catch (const std::bad_alloc&) {
     std::cerr << "out of memory\n";
     return 4;
+  } catch (const std::filesystem::filesystem_error& error) {
+    std::cerr << error.code().message() << '\n';
+    return 5;
   } catch (const microslip::mesh::MeshRoomError& error) {
     std::cerr << error.what() << '\n';
     return 5;

@@ -44,12 +44,12 @@ std::string blade_job(const BladeGeometry& g, const ElementSizes& sizes) {
   return text.str();
 }
 
-/// Removes its file when it goes.
+/// Removes its file when it goes, if it is still there: a mesher that is killed leaves one.
 class ScratchFile {
  public:
   explicit ScratchFile(fs::path path) : path_(std::move(path)) {}
   ~ScratchFile() {
-    std::error_code ignored;  // gone already, or renamed
+    std::error_code ignored;  // gone already, or in its place
     fs::remove(path_, ignored);
   }
   ScratchFile(const ScratchFile&) = delete;
@@ -98,8 +98,8 @@ class AnonymousFile {
 };
 
 /// In a process group of its own: Ctrl-C is for this process to answer.
-pid_t start(const fs::path& program, int input, const fs::path& output, int messages,
-            double memory_mb) {
+pid_t start(const fs::path& program, int input, const fs::path& scratch, const fs::path& output,
+            int messages, double memory_mb) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
@@ -110,10 +110,12 @@ pid_t start(const fs::path& program, int input, const fs::path& output, int mess
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
   posix_spawnattr_setpgroup(&attributes, 0);
   std::string name = program.string();
+  std::string unfinished = scratch.string();
   std::string file = output.string();
   std::string memory = std::to_string(memory_mb);
   std::string parent = std::to_string(::getpid());
-  std::array<char*, 5> arguments{name.data(), file.data(), memory.data(), parent.data(), nullptr};
+  std::array<char*, 6> arguments{name.data(),   unfinished.data(), file.data(),
+                                 memory.data(), parent.data(),     nullptr};
   pid_t child = 0;
   const int error =
       posix_spawn(&child, name.c_str(), &actions, &attributes, arguments.data(), environ);
@@ -206,14 +208,11 @@ void run_mesher(const std::string& job, const fs::path& file, const MesherLimits
   const AnonymousFile messages;
   const ScratchFile scratch(file.string() + "." + std::to_string(::getpid()) +
                             file.extension().string());
-  const pid_t child =
-      start(program, input.descriptor(), scratch.path(), messages.descriptor(), limits.memory_mb);
+  const pid_t child = start(program, input.descriptor(), scratch.path(), file,
+                            messages.descriptor(), limits.memory_mb);
   const int status = wait_for(child, limits);  // before its messages are read
   judge(status, limits, file, messages.tail());
-  std::error_code error;
-  fs::rename(scratch.path(), file, error);
-  if (error)
-    throw MeshError("the mesher left nothing at " + file.string() + ": " + error.message());
+  if (!fs::exists(file)) throw MeshError("the mesher left nothing at " + file.string());
 }
 
 void mesh_blade(const BladeGeometry& geometry, const ElementSizes& sizes, const fs::path& file,
