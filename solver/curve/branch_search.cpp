@@ -248,6 +248,7 @@ class Search {
     std::vector<Eigen::VectorXd> known;
     ContinuationOptions all = options_;  // what is no row would be found again
     all.require_proof = false;
+    all.judge_stability = false;
     const auto add = [&](const ResponseCurve& curve) {
       for (const auto& point : points_at_frequency(scene_, curve, frequency, all)) {
         Eigen::VectorXd x = balance_->unknowns(point.q);
