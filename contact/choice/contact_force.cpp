@@ -26,8 +26,10 @@ namespace {
 
 // As far as the residual of the balance is driven down: coarser, its noise turns branches back.
 constexpr double planar_tolerance = 1e-11;
-// Fewer points are solved event by event as fast as that matters, and to rounding.
-constexpr Eigen::Index least_points_in_lanes = 48;
+// Fewer points are solved event by event as fast as that matters, and to rounding: plain ones in
+// microseconds, others in 0.1 to 1 ms, of which sampling takes a tenth.
+constexpr Eigen::Index least_plain_points_in_lanes = 48;
+constexpr Eigen::Index least_points_in_lanes = 16;
 // Of a period, for a force right to 1e-3.
 constexpr int instants_of_plain_lines = 128;
 constexpr int instants_of_others = 256;
@@ -155,7 +157,8 @@ std::vector<Item> joined(std::span<const std::vector<Item>> lists) {
 
 Method method_for(Eigen::Index n_points, bool plain, int n_harmonics) {
   if (n_harmonics == 1 && plain) return Method::closed_form;
-  return n_points >= least_points_in_lanes ? Method::lanes : Method::point_methods;
+  const Eigen::Index least = plain ? least_plain_points_in_lanes : least_points_in_lanes;
+  return n_points >= least ? Method::lanes : Method::point_methods;
 }
 
 bool are_plain(std::span<const Patch> patches, const ContactEffects& effects) {

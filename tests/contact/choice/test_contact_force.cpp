@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "tests/support/asked_force.hpp"
@@ -116,6 +117,34 @@ TEST(ContactForce, TwoPatchesAreTheOneTheyMakeUp) {
                 1e-12)
           << c.name;
     }
+  }
+}
+
+// Whatever has few points is solved event by event; of others what sampling errs by is asked for.
+TEST(ContactForce, IsSampledFromAsManyPointsAsThatPaysAndAgreesWithLocatedEvents) {
+  const auto patches_of = [](Eigen::Index n, const Case& c) {
+    std::vector<Patch> patches{patch_at(0.0, n)};
+    patches.front().cells.stiffness.col(1).setConstant(1.2);
+    patches.front().rules = c.rules;
+    return patches;
+  };
+  for (Case c : cases()) {
+    c.effects.n_harmonics = 3;
+    const Eigen::Index least = std::string(c.name) == "by speed" ||
+                                       std::string(c.name) == "rough" || c.effects.second_direction
+                                   ? 16
+                                   : 48;
+    const std::vector<Patch> patches = patches_of(least, c);
+    EXPECT_FALSE(is_sampled(patches_of(least - 1, c), c.effects)) << c.name;
+    EXPECT_TRUE(is_sampled(patches, c.effects)) << c.name;
+    ContactEffects located = c.effects;
+    located.located = true;
+    const auto sampled = ContactForce(patches, c.effects, 6.0).modal_force();
+    const auto exact = ContactForce(patches, located, 6.0).modal_force();
+    const Eigen::VectorXd force = tests::evaluate(*sampled, motion(3), 1.3).force.vector();
+    const double error = difference(force, tests::evaluate(*exact, motion(3), 1.3).force.vector());
+    EXPECT_LT(error, c.effects.force_tolerance) << c.name;
+    EXPECT_GT(error, 0.0) << c.name << ": another method";
   }
 }
 
