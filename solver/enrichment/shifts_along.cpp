@@ -15,18 +15,22 @@ constexpr double least_frequency = 1e-5;
 constexpr int next_few = 6;        // those beyond move a point by less
 constexpr double nothing = 1e-12;  // of the largest: what symmetry leaves of a harmonic's force
 
-/// A point takes about as long as tracing it did; of small scenes the whole is below a second.
+/// A point takes about as long as tracing it with the harmonics asked would; of small scenes the
+/// whole is below a second.
 struct Density {
   std::size_t stride;
   std::size_t at_most_one_in;  ///< beside those
 };
 constexpr Density fine{8, 4};
 constexpr Density coarse{16, 12};
-constexpr Eigen::Index many_unknowns = 300;
+constexpr Eigen::Index many_unknowns = 150;
 
-Density density_of(const ResponseCurve& curve) {
-  const Eigen::Index unknowns = curve.points.empty() ? 0 : curve.points.front().q.vector().size();
-  return unknowns < many_unknowns ? fine : coarse;
+/// @param highest  harmonic that is asked.
+Density density_of(const ResponseCurve& curve, int highest) {
+  if (curve.points.empty()) return fine;
+  const contact::Harmonics& q = curve.points.front().q;
+  const int asked = std::min(highest, q.n_harmonics() + next_few);
+  return (2 * asked + 1) * q.rows().cols() < many_unknowns ? fine : coarse;
 }
 
 struct ToldShift {
@@ -81,7 +85,7 @@ class Samples {
         stop_(stop),
         asked_(curve.points.size(), false) {
     const std::size_t n = curve.points.size();
-    const Density density = density_of(curve);
+    const Density density = density_of(curve, highest);
     for (std::size_t i = 0; i < n; ++i) {
       const bool is_marked = curve.points[i].mark != PointMark::none;
       if (i % density.stride == 0 || i + 1 == n || is_marked) add(i);
