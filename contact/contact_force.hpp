@@ -6,7 +6,7 @@
 ///
 ///   one harmonic, one direction, plain surfaces    closed form (theory sections 3, 4)
 ///   48 points or more, of other surfaces or in     the period sampled, all points in lanes
-///   two directions 16 or more                      (contact/sampled)
+///   two directions 9 or more                       (contact/sampled)
 ///   else                                           each point event by event (contact/line,
 ///                                                  contact/plane)
 ///

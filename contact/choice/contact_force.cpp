@@ -27,9 +27,10 @@ namespace {
 // As far as the residual of the balance is driven down: coarser, its noise turns branches back.
 constexpr double planar_tolerance = 1e-11;
 // Fewer points are solved event by event as fast as that matters, and to rounding: plain ones in
-// microseconds, others in 0.1 to 1 ms, of which sampling takes a tenth.
+// microseconds, others in 0.1 to 1 ms, of which sampling takes a tenth. Where rough points slide in
+// a plane it also blurs tips of branches, 1e-7 of a frequency wide, that walks come back from.
 constexpr Eigen::Index least_plain_points_in_lanes = 48;
-constexpr Eigen::Index least_points_in_lanes = 16;
+constexpr Eigen::Index least_points_in_lanes = 9;
 // Of a period, for a force right to 1e-3.
 constexpr int instants_of_plain_lines = 128;
 constexpr int instants_of_others = 256;
@@ -206,7 +207,7 @@ std::unique_ptr<ModalForce> ContactForce::force_of(std::size_t begin, std::size_
   const std::span patches(patches_.data() + begin, end - begin);
   const std::span points(points_.data() + begin, end - begin);
   Stack stack = stacked(patches, effects_);
-  switch (method_for(patches, effects_)) {
+  switch (method_for(patches_, effects_)) {  // of all: parts add up to the whole
     case Method::closed_form: {
       const auto make = [&](Stack all) -> std::unique_ptr<ModalForce> {
         return std::make_unique<PatchForce>(ContactPatch(all.weights, joined(points)),
@@ -219,7 +220,7 @@ std::unique_ptr<ModalForce> ContactForce::force_of(std::size_t begin, std::size_
       const auto make = [&](Stack all) -> std::unique_ptr<ModalForce> {
         return std::make_unique<sampled::PatchForce>(std::move(all.weights), surfaces(begin, end),
                                                      std::move(all.shapes),
-                                                     instants_of(patches, effects_));
+                                                     instants_of(patches_, effects_));
       };
       return seen_through(coordinates_, std::move(stack), make);
     }

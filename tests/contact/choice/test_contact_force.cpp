@@ -132,7 +132,7 @@ TEST(ContactForce, IsSampledFromAsManyPointsAsThatPaysAndAgreesWithLocatedEvents
     c.effects.n_harmonics = 3;
     const Eigen::Index least = std::string(c.name) == "by speed" ||
                                        std::string(c.name) == "rough" || c.effects.second_direction
-                                   ? 16
+                                   ? 9
                                    : 48;
     const std::vector<Patch> patches = patches_of(least, c);
     EXPECT_FALSE(is_sampled(patches_of(least - 1, c), c.effects)) << c.name;
@@ -273,7 +273,8 @@ TEST(ContactForce, MapsShowTheForceThatIsSimulated) {
       sine += s * cells.shapes.w.transpose() *
               cells.weights.cwiseProduct(map.friction_traction_r.col(j));
     }
-    EXPECT_LT(difference(sine, force.sine().transpose()), 1e-5) << c.name;  // of 4096 samples
+    const double least = is_sampled(patches, c.effects) ? c.effects.force_tolerance : 1e-5;
+    EXPECT_LT(difference(sine, force.sine().transpose()), least) << c.name;  // of 4096 samples
     EXPECT_EQ(map.friction_coefficient, cells.friction) << c.name;
   }
 }
