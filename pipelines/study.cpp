@@ -2,6 +2,7 @@
 
 #include "contact/spare_cores.hpp"
 #include "fem/blas_threads.hpp"
+#include "pipelines/effects/picture_cost.hpp"
 #include "pipelines/questions/questions.hpp"
 #include "pipelines/record/failed_start.hpp"
 #include "pipelines/record/run_record.hpp"

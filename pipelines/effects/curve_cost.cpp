@@ -115,20 +115,23 @@ double n_points(const SceneDescription& scene, bool areas) {
 }
 
 /// In a scene of numbers.
-bool has_varying_loads(const SceneDescription& scene) {
+bool has_varying_loads(const SceneDescription& scene, const CurveEffects& effects) {
   const auto* modal = std::get_if<ModalModel>(&scene.model);
   if (modal == nullptr || modal->shapes.v.isZero(0.0)) return false;
-  return setting_of(scene, "normal_motion") != "off" &&
-         std::ranges::any_of(modal->points,
-                             [](const auto& point) { return point.normal_stiffness > 0.0; });
+  return effects.normal_motion && std::ranges::any_of(modal->points, [](const auto& point) {
+           return point.normal_stiffness > 0.0;
+         });
 }
 
-/// Of numbers: even harmonics are no unknowns then (continuation_options()).
+/// Even harmonics are no unknowns then (continuation_options()).
 bool has_odd_motions(const SceneDescription& scene, const CurveEffects& effects) {
   const auto* modal = std::get_if<ModalModel>(&scene.model);
-  if (modal == nullptr || effects.roughness || effects.rate_dependence) return false;
+  if (effects.roughness || effects.rate_dependence) return false;
+  if (modal == nullptr) {
+    return !effects.normal_motion && !scene.rotation && scene.static_loads.place.empty();
+  }
   if (modal->force_static.size() > 0 && !modal->force_static.isZero(0.0)) return false;
-  return !has_varying_loads(scene);
+  return !has_varying_loads(scene, effects);
 }
 
 int n_chosen(const SceneDescription& scene) {
@@ -186,26 +189,26 @@ double point_seconds(const CurveEffects& effects, const Size& size) {
 }
 
 /// Of several points whose loads vary; those of a mesh are many, and have no events located.
-bool has_many_events(const SceneDescription& scene, const Size& size) {
-  if (size.points < 2.0 || !has_varying_loads(scene)) return false;
+bool has_many_events(const SceneDescription& scene, const CurveEffects& effects, const Size& size) {
+  if (size.points < 2.0 || !has_varying_loads(scene, effects)) return false;
   const auto n = std::llround(size.points);
   return contact::method_for(n, false, size.harmonics) == contact::Method::point_methods;
 }
 
 bool opens_at_once(const SceneDescription& scene, const CurveEffects& effects) {
-  return !scene.contacts.empty() && !effects.areas && setting_of(scene, "normal_motion") != "off";
+  return !scene.contacts.empty() && !effects.areas && effects.normal_motion;
 }
 
 /// Many modes are seen by a contact through fewer coordinates, by few points through three each.
-double n_unknowns(const Size& size) {
+double n_unknowns(const CurveEffects& effects, const Size& size) {
   constexpr double most_coordinates = 40.0;  // about
   const double coordinates = std::min({size.modes, most_coordinates, 3.0 * size.points});
-  return coordinates * (2.0 * size.harmonics + 1.0);
+  return coordinates * (2.0 * size.harmonics + (effects.mean ? 1.0 : 0.0));
 }
 
 double evaluation_seconds(const CurveEffects& effects, const Size& size) {
   const bool sampled = method_of(effects, size) == contact::Method::lanes;
-  const double n = n_unknowns(size);
+  const double n = n_unknowns(effects, size);
   const double balance =
       sampled ? few_factorisations * n * n * std::min(n, many_unknowns) : n * n * n;
   return size.points * point_seconds(effects, size) + factorisation * balance;
@@ -218,11 +221,12 @@ double stability_seconds(const SceneDescription& scene, const CurveEffects& effe
   if (size.harmonics == 1) return 0.0;
   const bool in_time =
       !effects.second_direction && 2.0 * size.modes + size.points <= states_of_a_period_map;
-  const double events = has_many_events(scene, size) ? of_many_events_in_a_period
-                        : has_varying_loads(scene)   ? of_events_in_a_period
-                                                     : 1.0;
+  const double events = has_many_events(scene, effects, size) ? of_many_events_in_a_period
+                        : has_varying_loads(scene, effects)   ? of_events_in_a_period
+                                                              : 1.0;
   if (in_time) return effects.stability ? events * size.harmonics * period_map : 0.0;
-  return effects.stability ? 0.0 : -std::min(hill * std::pow(n_unknowns(size), 3), hill_of_many);
+  return effects.stability ? 0.0
+                           : -std::min(hill * std::pow(n_unknowns(effects, size), 3), hill_of_many);
 }
 
 /// Those that are no linear limit.
@@ -371,6 +375,8 @@ bool can_move_along_r(const SceneDescription& scene) {
 CurveEffects curve_effects(const SceneDescription& scene, bool second_direction) {
   const HarmonicSettings& harmonics = scene.settings.harmonics;
   return {.second_direction = second_direction,
+          .normal_motion = is_rough(scene) || setting_of(scene, "normal_motion") != "off",
+          .mean = setting_of(scene, "mean_coupling") != "off",
           .several_harmonics = harmonics.highest > 1,
           .chosen_harmonics = harmonics.chosen(),
           .roughness = is_rough(scene),
@@ -396,9 +402,9 @@ ResponseSeconds response_seconds(const SceneDescription& scene, const CurveEffec
     if (scene.accuracy.error_budget)
       seconds.errors = integrations_with(scene, effects, seconds.curves);
   } else {
-    const double more = has_many_events(scene, size)    ? of_many_events
-                        : opens_at_once(scene, effects) ? of_one_point_that_opens
-                                                        : 1.0;
+    const double more = has_many_events(scene, effects, size) ? of_many_events
+                        : opens_at_once(scene, effects)       ? of_one_point_that_opens
+                                                              : 1.0;
     const double evaluations = more * (one                        ? of_one_frequency
                                        : effects.chosen_harmonics ? of_a_choosing_curve
                                                                   : of_a_curve);

@@ -12,6 +12,8 @@ namespace microslip::pipelines {
 /// evaluated (contact::method_for).
 struct CurveEffects {
   bool second_direction = false;
+  bool normal_motion = true;  ///< loads vary where the scene has what varies them
+  bool mean = true;           ///< of the motion: an unknown of every coordinate
   bool several_harmonics = false;
   bool chosen_harmonics = false;
   bool roughness = false;

@@ -575,6 +575,8 @@ int search_starts(const SceneDescription& scene, const ReducedModel& model, doub
 CurveEffects decided_curve_effects(const SceneDescription& scene, const ReducedModel& model) {
   CurveEffects effects = curve_effects(scene, model.effects.second_direction);
   effects.free_modes = static_cast<double>(model.frequency.size() - model.n_attachment);
+  effects.normal_motion = model.effects.normal_motion;
+  effects.mean = model.effects.mean_coupling;
   effects.linear_curves = n_linear_curves(model, scene);
   const auto is_searched = [&](const CurveRequest& request) {
     try {

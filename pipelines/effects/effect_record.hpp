@@ -26,7 +26,7 @@ struct EffectRecord {
       indicator{};  ///< dimensionless (effect_table.hpp); none: not told, or not yet
   std::optional<double> threshold{};  ///< of the indicator; above it the effect is called for
   std::optional<double>
-      seconds{};  ///< that the curves take longer with it, forecast; none: not told apart
+      seconds{};  ///< that a run takes longer with it, forecast; none: no longer, or not told apart
   std::optional<double>
       bound{};  ///< of what is left out: relative change of a highest peak by having it
   std::optional<double>

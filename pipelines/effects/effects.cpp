@@ -15,6 +15,8 @@
 #include "pipelines/effects/effect_indicators.hpp"
 #include "pipelines/effects/effect_sizes.hpp"
 #include "pipelines/effects/motion_along_r.hpp"
+#include "pipelines/effects/picture_cost.hpp"
+#include "pipelines/structure/solver_time.hpp"
 #include "pipelines/system/machine_speed.hpp"
 #include "pipelines/system/scene_error.hpp"
 #include "pipelines/text/effect_table.hpp"
@@ -37,6 +39,7 @@ bool takes_rules(const SceneDescription& scene) {
 /// What a scene lacks for some effects is no question of seconds.
 bool can_be(std::string_view name, const EffectFacts& facts) {
   if (name == "second_direction") return can_be_along_r(facts);
+  if (name == "normal_motion" || name == "mean_coupling") return facts.has_normal_stiffness;
   if (name == "roughness") return facts.has_normal_stiffness && takes_rules(facts.scene);
   if (name == "rate_dependence") return facts.has_friction && takes_rules(facts.scene);
   if (name == "moments") return has_area(facts.scene);
@@ -51,7 +54,9 @@ struct Costly {
 };
 
 const Costly* costly(std::string_view name) {
-  static constexpr std::array effects{Costly{"second_direction", &CurveEffects::second_direction},
+  static constexpr std::array effects{Costly{"normal_motion", &CurveEffects::normal_motion},
+                                      Costly{"mean_coupling", &CurveEffects::mean},
+                                      Costly{"second_direction", &CurveEffects::second_direction},
                                       Costly{"roughness", &CurveEffects::roughness},
                                       Costly{"rate_dependence", &CurveEffects::rate_dependence},
                                       Costly{"moments", &CurveEffects::areas},
@@ -61,14 +66,44 @@ const Costly* costly(std::string_view name) {
   return found == effects.end() ? nullptr : &*found;
 }
 
-/// What the curves take longer with an effect than without, where the method of the points tells.
+/// Those that are asked for; where none is, of one at every peak. Linear limits have none.
+std::optional<double> cost_of_maps(const SceneDescription& scene) {
+  SceneDescription drawn = scene;
+  if (drawn.response->maps.empty()) drawn.response->maps = {MapName::peak};
+  const double seconds = picture_seconds(drawn).maps;
+  return seconds > 0.0 ? std::optional(seconds) : std::nullopt;
+}
+
+/// The equilibrium about which a rotating body vibrates, before the curves; where it is known how
+/// large the mesh is.
+std::optional<double> cost_of_rotation(const EffectFacts& facts) {
+  const SceneDescription& rotating = as_written(facts.scene);
+  if (facts.mesh == nullptr || given_modes(rotating) != nullptr) return std::nullopt;
+  if (!rotating.rotation || rotating.rotation->speed == 0.0) return std::nullopt;
+  SceneDescription at_rest = rotating;
+  at_rest.rotation->speed = 0.0;
+  const double n = 3.0 * static_cast<double>(facts.mesh->n_nodes());
+  return equilibrium_seconds(n, rotating) - equilibrium_seconds(n, at_rest);
+}
+
+/// What the forecast does not tell from nothing takes no longer.
+std::optional<double> if_any(double seconds, double all) {
+  constexpr double of_all = 1e-3;
+  return std::abs(seconds) > of_all * all ? std::optional(seconds) : std::nullopt;
+}
+
+/// What a run takes longer with an effect than without: before the curves, in them by the method of
+/// their points, after them.
 std::optional<double> cost_of(std::string_view name, const EffectFacts& facts) {
   if (!facts.scene.response || !facts.has_contact || in_time(facts.scene)) return std::nullopt;
+  if (name == "maps") return cost_of_maps(facts.scene);
+  if (name == "centrifugal") return cost_of_rotation(facts);
   if (name == "coexistence") return machine_slowness() * seconds_of_search(facts);
   if (name == "separation") return 0.0;  // the equations are those of contact that cannot open
   CurveEffects with = curve_effects(facts.scene, facts.both_directions);
   const double all = response_seconds(facts.scene, with).total();
-  if (name == "nonlinearity") return all;  // the limits take nothing
+  if (name == "nonlinearity") return all;                              // the limits take nothing
+  if (name == "normal_motion" && with.roughness) return std::nullopt;  // they go together
   CurveEffects without = with;
   if (name == "higher_harmonics") {
     // Of those asked for; of one alone, of what choosing them would take.
@@ -81,8 +116,10 @@ std::optional<double> cost_of(std::string_view name, const EffectFacts& facts) {
   } else {
     return std::nullopt;
   }
-  return response_seconds(facts.scene, with).total() -
-         response_seconds(facts.scene, without).total();
+  const double seconds =
+      response_seconds(facts.scene, with).total() - response_seconds(facts.scene, without).total();
+  const bool of_loads = name == "normal_motion" || name == "mean_coupling";
+  return of_loads ? if_any(seconds, all) : seconds;
 }
 
 constexpr const char* not_forecast =
@@ -100,10 +137,10 @@ std::string why_no_cost(std::string_view name, const EffectFacts& facts) {
           "an evaluation takes about as long, how many more a curve needs is not known before"},
       Why{"mean_coupling", "it comes with normal_motion, and an evaluation takes as long without"},
       Why{"local_frames", "axes of their own take no time of a curve"},
-      Why{"static_preload", "one static solution, before the curves"},
+      Why{"static_preload", "the static solution that tells its force tells its shape"},
       Why{"centrifugal", "modes and a static solution of the rotating body, before the curves"},
-      Why{"wear", "drawn with the maps, after the curves"},
-      Why{"maps", "drawn after the curves"},
+      Why{"wear", "a column of the maps, which takes no time of its own"},
+      Why{"maps", "linear limits have none"},
   };
   const auto found = std::ranges::find(reasons, name, &Why::name);
   return found == reasons.end() ? "the forecast does not tell it apart" : found->text;

@@ -1,4 +1,5 @@
 #include "pipelines/stages/accurate_curves.hpp"
+#include "pipelines/effects/picture_cost.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -112,7 +112,8 @@ ReducedModel reduced_model(const SceneDescription& scene, const StructurePointer
         "longer than friction along p; effects.second_direction = \"off\" leaves it out",
         percent_text(model.effects.motion_ratio)));
   }
-  std::vector<EffectRecord> effects = effects_of(scene, &model);
+  std::vector<EffectRecord> effects =
+      effects_of(scene, &model, structure ? &structure->mesh : nullptr);
   if (structure) tell_moments_left_out(scene, *structure, effects);
   record.keep_effects(std::move(effects));
   record.keep_model(model);

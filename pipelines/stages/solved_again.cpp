@@ -216,7 +216,8 @@ void keep_budgets(const Solution& solution, RunRecord& record) {
 }
 
 std::vector<EffectRecord> effects_of(const Solution& solution) {
-  std::vector<EffectRecord> effects = effects_of(solution.scene, &solution.model);
+  std::vector<EffectRecord> effects = effects_of(
+      solution.scene, &solution.model, solution.structure ? &solution.structure->mesh : nullptr);
   if (solution.structure) tell_moments_left_out(solution.scene, *solution.structure, effects);
   tell_switched_on(solution.switched_on, effects);
   return effects;

@@ -41,11 +41,4 @@ namespace microslip::pipelines {
 [[nodiscard]] double optimum_seconds(const ReducedModel& model, const SceneDescription& scene,
                                      const std::vector<CurveResult>& curves, bool bracket);
 
-/// What is drawn after the curves.
-struct PictureSeconds {
-  double maps = 0.0;
-  double plots = 0.0;
-};
-[[nodiscard]] PictureSeconds picture_seconds(const SceneDescription& scene);
-
 }  // namespace microslip::pipelines

@@ -11,6 +11,7 @@
 #include "pipelines/description/scene_description.hpp"
 #include "pipelines/effects/curve_cost.hpp"
 #include "pipelines/effects/effect_record.hpp"
+#include "pipelines/effects/picture_cost.hpp"
 #include "pipelines/record/run_options.hpp"
 #include "pipelines/stages/stage_seconds.hpp"
 #include "pipelines/structure/solver_memory.hpp"

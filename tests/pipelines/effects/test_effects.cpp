@@ -426,10 +426,45 @@ TEST(Effects, TheForecastTellsWhatAnEffectCosts) {
       EXPECT_GT(effect_in(told, name).seconds.value_or(0.0), 0.0) << name;
     }
     EXPECT_EQ(effect_in(told, "separation").seconds, 0.0);
-    for (const char* name : {"normal_motion", "mean_coupling", "moments", "residual", "maps"}) {
+    EXPECT_GT(effect_in(told, "maps").seconds.value_or(0.0), 0.0);  // of a map at each peak
+    for (const char* name : {"moments", "residual", "static_preload", "centrifugal", "wear"}) {
       EXPECT_FALSE(effect_in(told, name).seconds) << name;
     }
   }
+}
+
+// Loads that vary are looked through for instants where the contact opens, and drive even
+// harmonics; the mean is one unknown more.
+TEST(Effects, TheForecastTellsWhatVaryingLoadsCost) {
+  const auto told = [](const Overrides& overrides) {
+    const SceneDescription scene = scene_of(overrides);
+    const ReducedModel model = model_in(scene);
+    return effects_of(scene, &model);
+  };
+  const std::vector<EffectRecord> varying = told({"response.harmonics=9"});
+  const std::vector<EffectRecord> constant =
+      told({"response.harmonics=9", "effects.normal_motion=off"});
+  const double more = effect_in(varying, "normal_motion").seconds.value_or(0.0);
+  EXPECT_GT(more, 0.0);
+  const double saved = effect_in(constant, "normal_motion").seconds.value_or(0.0);
+  EXPECT_GT(saved, 0.5 * more);  // with the proof that leaving it out was right
+  EXPECT_LT(saved, 2.0 * more);
+  EXPECT_LT(more, effect_in(varying, "nonlinearity").seconds.value_or(0.0));
+  const Overrides none{"response.harmonics=9", "modal.points[0].normal_stiffness=0"};
+  EXPECT_FALSE(effect_in(told(none), "normal_motion").seconds.has_value());
+  EXPECT_FALSE(effect_in(told(none), "mean_coupling").seconds.has_value());
+}
+
+TEST(Effects, TheForecastTellsWhatIsDrawnAfterTheCurves) {
+  const auto maps = [](const Overrides& overrides) {
+    const SceneDescription scene = scene_of(overrides);
+    const ReducedModel model = model_in(scene);
+    return effect_in(effects_of(scene, &model), "maps").seconds;
+  };
+  const double one = maps({"response.maps=[\"peak\"]"}).value_or(0.0);
+  EXPECT_GT(one, 0.0);
+  EXPECT_DOUBLE_EQ(maps({}).value_or(0.0), one);  // what they would take at the peak
+  EXPECT_GT(maps({"response.maps=[\"peak\", \"folds\"]"}).value_or(0.0), one);
 }
 
 // Above its limit an effect that is given is missed.

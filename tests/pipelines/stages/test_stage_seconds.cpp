@@ -1,3 +1,4 @@
+#include "pipelines/effects/picture_cost.hpp"
 #include "pipelines/stages/stage_seconds.hpp"
 
 #include <gtest/gtest.h>
