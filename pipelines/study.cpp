@@ -24,12 +24,13 @@ namespace microslip::pipelines {
 int run_study(const SceneDescription& asked, const RunOptions& options) {
   begin_in(options.output, [&] { require_response(asked); });
   begin_deadline(asked.accuracy.budget);
-  const SceneDescription scene = first_settings(asked);
   RunRecord record(asked, options);
   const ResultCache cache(options.cache, [&](const auto& line) { record.progress().info(line); });
   return record.run([&] {
-    Solution solution{.scene = scene, .structure = solved_structure(scene, options.jobs, record)};
-    solution.model = reduced_model(scene, solution.structure, record);
+    Solution solution{.scene = first_settings(asked), .structure = {}};
+    const SceneDescription& scene = solution.scene;
+    solution.structure = solved_structure(scene, options.jobs, record);
+    add_model(solution, record);
     require_held(solution.model, scene);
     require_curves(solution.model, scene);
     record.stage("curves");
@@ -67,7 +68,8 @@ int modes_study(const SceneDescription& scene, const RunOptions& options) {
   RunRecord record(scene, options);
   const ResultCache cache(options.cache, [&](const auto& line) { record.progress().info(line); });
   return record.run([&] {
-    static_cast<void>(reduced_model(scene, solved_structure(scene, options.jobs, record), record));
+    Solution solution{.scene = scene, .structure = solved_structure(scene, options.jobs, record)};
+    add_model(solution, record);
   });
 }
 

@@ -165,7 +165,8 @@ std::string joint_text(const Told& told) {
 }
 
 /// What a model can be solved with in place of without, settings of the scene alone apart.
-constexpr std::array<std::string_view, 2> switchable{"normal_motion", "second_direction"};
+constexpr std::array<std::string_view, 4> switchable{"normal_motion", "second_direction",
+                                                     "roughness", "rate_dependence"};
 
 /// A with / A without − 1 of a row is A without / A with − 1 of who had left it out; a peak that is
 /// lost, or nearly, may be a lower one, and changes by what it has.

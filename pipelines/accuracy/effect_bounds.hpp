@@ -34,8 +34,8 @@ struct MissedEffect {
   double change = 0.0;  ///< relative, of a highest peak by leaving it out; infinite: as in a row
 };
 
-/// Those that a run can put back, normal motion and friction along r: left to `auto`, left out, and
-/// having them changes a highest peak by more than the tolerance.
+/// Those that a run can put back, normal motion, friction along r, roughness and friction by speed:
+/// left to `auto`, left out, and having them changes a highest peak by more than the tolerance.
 /// What a user switches off stays off.
 /// @param rows  as of tell_bounds().
 [[nodiscard]] std::vector<MissedEffect> missed_effects(const std::vector<ErrorRow>& rows,

@@ -16,6 +16,7 @@ struct Removal {
   bool (*is_given)(const SceneDescription&);
   void (*take_out)(SceneDescription&);
   void (*put_back)(SceneDescription& scene, const SceneDescription& written);
+  bool may_be_chosen = false;  ///< `auto` may leave it out
 };
 
 /// A member of the rules of every surface.
@@ -164,12 +165,14 @@ constexpr std::array removals{
              "the stiffness is that of full contact under every load"},
             is_rough,
             forget<&contact::SurfaceRules::roughness>,
-            restore<&contact::SurfaceRules::roughness>},
+            restore<&contact::SurfaceRules::roughness>,
+            true},
     Removal{{"rate_dependence", "the law of contact.friction_coefficient",
              "the coefficient is that at rest, of speed 0"},
             is_rate_dependent,
             take_out_law,
-            put_back_law},
+            put_back_law,
+            true},
     Removal{{"moments", "the area of the contact",
              "one point in its middle carries its load and has its mean motion"},
             [](const SceneDescription& scene) { return scene.areas && has_area(scene); },
@@ -233,13 +236,35 @@ void leave_out_effects(SceneDescription& scene) {
   }
 }
 
+void leave_out_by_choice(SceneDescription& scene, const std::vector<std::string>& effects) {
+  for (const std::string& effect : effects) {
+    const Removal* removal = removal_of(effect);
+    if (!is_given(scene, effect) || !removal->may_be_chosen) continue;
+    if (!scene.written) scene.written = std::make_shared<const SceneDescription>(scene);
+    removal->take_out(scene);
+  }
+}
+
+std::vector<std::string> left_out_by_choice(const SceneDescription& scene) {
+  std::vector<std::string> effects;
+  for (const Removal& removal : removals) {
+    const std::string_view name = removal.told.effect;
+    if (setting_of(scene, name) == "auto" && left_out(scene, name) != nullptr) {
+      effects.emplace_back(name);
+    }
+  }
+  return effects;
+}
+
 const SceneDescription& as_written(const SceneDescription& scene) {
   return scene.written ? *scene.written : scene;
 }
 
 const EffectLeftOut* left_out(const SceneDescription& scene, std::string_view effect) {
   const Removal* removal = removal_of(effect);
-  if (removal == nullptr || !scene.written || setting_of(scene, effect) != "off") return nullptr;
+  if (removal == nullptr || !scene.written) return nullptr;
+  const bool is_chosen = removal->may_be_chosen && !removal->is_given(scene);
+  if (setting_of(scene, effect) != "off" && !is_chosen) return nullptr;
   return removal->is_given(*scene.written) ? &removal->told : nullptr;
 }
 

@@ -6,7 +6,9 @@
 /// are made (effects/effect_choice).
 #pragma once
 
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "pipelines/description/scene_description.hpp"
 
@@ -22,8 +24,15 @@ struct EffectLeftOut {
 /// Takes out every effect that is given and `"off"`; the scene as it was stays in `written`.
 void leave_out_effects(SceneDescription& scene);
 
-/// Whether other keys give an effect that is `"off"`; nullptr: it is not off, not given, or no part
-/// of a description.
+/// Takes out effects that are given and that `auto` leaves out, as if they were `"off"`, their
+/// settings apart: of roughness and rate_dependence, and where they are not given nothing.
+void leave_out_by_choice(SceneDescription& scene, const std::vector<std::string>& effects);
+
+/// Those that are.
+[[nodiscard]] std::vector<std::string> left_out_by_choice(const SceneDescription& scene);
+
+/// Whether other keys give an effect that is `"off"`, or that `auto` leaves out; nullptr: it is
+/// simulated, not given, or no part of a description.
 [[nodiscard]] const EffectLeftOut* left_out(const SceneDescription& scene, std::string_view effect);
 
 /// Whether other keys give an effect, and it is simulated.

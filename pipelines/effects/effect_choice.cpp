@@ -229,20 +229,47 @@ EffectDecision higher_harmonics(const EffectFacts& facts) {
   return decision;
 }
 
+/// Above which `auto` simulates an effect that a key gives: that of the table, which keeps changes
+/// of a peak well below 1 %, a part of it where less is tolerated.
+double limit_of(const EffectRow& row, const SceneDescription& scene) {
+  constexpr double tolerance = 0.01;
+  const double asked = scene.accuracy.tolerance;
+  return asked > 0.0 ? row.threshold * std::min(1.0, asked / tolerance) : row.threshold;
+}
+
+/// Whether a run can prove what `auto` leaves out of a description, and gains by it: a motion in
+/// time would be integrated once more with it, other values of a key that is searched over may call
+/// for it where that of the scene does not.
+bool may_leave_out(const EffectFacts& facts, std::string_view name) {
+  if (facts.setting(name) != "auto" || in_time(facts.scene)) return false;
+  const auto& optimum = facts.scene.response->optimum;
+  return !optimum || optimum->of_preload();
+}
+
+/// Of an effect that a key gives: `auto` leaves it out below its limit.
+EffectDecision given_by_key(const EffectFacts& facts, std::string_view name, const char* reason,
+                            double (*size)(const ReducedModel&, const SceneDescription&)) {
+  if (facts.model == nullptr && facts.setting(name) == "auto") return {undecided, later};
+  if (!has_load(facts)) return by(true, reason);
+  EffectDecision decision = by(true, reason, size(*facts.model, facts.scene));
+  decision.threshold = limit_of(effect_row(name), facts.scene);
+  if (may_leave_out(facts, name)) {
+    decision.simulated = *decision.indicator > *decision.threshold ? yes : no;
+  }
+  return decision;
+}
+
 EffectDecision roughness(const EffectFacts& facts) {
   if (!is_rough(facts.scene)) return cannot("no contact.roughness is given: surfaces are smooth");
-  EffectDecision decision = by(true, "contact.roughness is given");
-  if (has_load(facts)) decision.indicator = roughness_size(*facts.model, facts.scene);
-  return decision;
+  return given_by_key(facts, "roughness", "contact.roughness is given", roughness_size);
 }
 
 EffectDecision rate_dependence(const EffectFacts& facts) {
   if (!is_rate_dependent(facts.scene)) {
     return cannot("no law of the slip speed is given: the friction coefficient is constant");
   }
-  EffectDecision decision = by(true, "the friction coefficient follows the slip speed");
-  if (has_load(facts)) decision.indicator = friction_change(*facts.model, facts.scene);
-  return decision;
+  return given_by_key(facts, "rate_dependence", "the friction coefficient follows the slip speed",
+                      friction_change);
 }
 
 EffectDecision moments(const EffectFacts& facts) {
@@ -446,10 +473,15 @@ std::optional<double> indicator_left_out(std::string_view name, const EffectFact
 }
 
 EffectDecision without(const EffectLeftOut& effect, const EffectFacts& facts) {
-  return by(false,
-            fmt::format("effects.{} = \"off\" leaves out {}: {}", effect.effect, effect.key,
-                        effect.instead),
-            indicator_left_out(effect.effect, facts));
+  const bool chosen = facts.setting(effect.effect) == "auto";
+  EffectDecision decision = by(
+      false,
+      chosen ? fmt::format("{} matters too little and is left out: {}", effect.key, effect.instead)
+             : fmt::format("effects.{} = \"off\" leaves out {}: {}", effect.effect, effect.key,
+                           effect.instead),
+      indicator_left_out(effect.effect, facts));
+  if (chosen) decision.threshold = limit_of(effect_row(effect.effect), facts.scene);
+  return decision;
 }
 
 struct Chooser {

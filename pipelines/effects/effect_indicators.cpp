@@ -194,7 +194,7 @@ FallenFriction fallen_friction(const ReducedModel& model, const SceneDescription
       fastest = std::max(fastest, std::isfinite(largest) ? motion.frequency * largest : any);
     }
     const double there = law->at(fastest).value;
-    const double least = 1.0 - effect_row("rate_dependence").threshold;
+    constexpr double least = 0.99;  // of that at rest
     if (there < least * law->at_rest()) fallen[k] = there;
   }
   return fallen;
@@ -456,7 +456,7 @@ double friction_change(const ReducedModel& model, const SceneDescription& scene)
   for (const LimitMotion& motion : limit_motions(model, scene)) {
     for (std::size_t k = 0; k < model.patches.size(); ++k) {
       const auto& law = rules[k].friction;
-      if (!law || !motion.in_range) continue;
+      if (!law) continue;
       const Eigen::MatrixX3d& amplitude = motion.patches[k].amplitude;
       const double speed =
           motion.frequency *

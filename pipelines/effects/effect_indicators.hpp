@@ -78,8 +78,9 @@ struct HarmonicAnswer {
 /// Of one patch in one motion, its first harmonic.
 [[nodiscard]] double turning_force(const contact::Patch& patch, const Eigen::VectorXcd& motion);
 
-/// |μ(σ) − μ(0)|/μ(0) at the highest speed σ of the linear limits, the largest of all patches; of
-/// the law that the scene gives, simulated or not.
+/// |μ(σ) − μ(0)|/μ(0) at the highest speed σ of the linear limits, in the range and at resonances
+/// that contact bends into it, the largest of all patches; of the law that the scene gives,
+/// simulated or not.
 [[nodiscard]] double friction_change(const ReducedModel& model, const SceneDescription& scene);
 
 /// Attachment shapes: relative change of the stuck frequency nearest to the range without them.

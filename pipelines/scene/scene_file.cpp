@@ -12,6 +12,7 @@
 #include <toml++/toml.h>
 
 #include "contact/phase.hpp"
+#include "pipelines/description/effects_left_out.hpp"
 #include "pipelines/description/goal_names.hpp"
 #include "pipelines/scene/bar_scene.hpp"
 #include "pipelines/scene/block_scene.hpp"
@@ -482,6 +483,7 @@ SceneDescription with_value(const SceneDescription& scene, const std::string& ke
   SceneDescription other =
       read_again(scene, key, value, {"optimum", "optimum_range", "optimum_at"});
   if (!is_setting(key)) keep_refinement(other, scene);
+  leave_out_by_choice(other, left_out_by_choice(scene));
   return other;
 }
 

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "pipelines/description/effects_left_out.hpp"
 #include "pipelines/response/highest_peak.hpp"
 #include "pipelines/stages/solved_again.hpp"
 #include "pipelines/system/deadline.hpp"
@@ -36,6 +37,7 @@ std::vector<MissedEffect> missed_in(const Solution& solution) {
 /// As if the user had switched them on; the table of effects tells who did.
 SceneDescription with_effects(SceneDescription scene, const std::vector<MissedEffect>& missed) {
   for (const MissedEffect& one : missed) {
+    if (left_out(scene, one.name) != nullptr) scene = with_effect(scene, one.name);
     for (auto& [effect, setting] : scene.effects) {
       if (effect == one.name) setting = "on";
     }

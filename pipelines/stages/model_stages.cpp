@@ -8,6 +8,7 @@
 #include "fem/ranks.hpp"
 #include "pipelines/description/damping_ratios.hpp"
 #include "pipelines/effects/effects.hpp"
+#include "pipelines/effects/simulated_scene.hpp"
 #include "pipelines/model/contact_stage.hpp"
 #include "pipelines/model/scene_places.hpp"
 #include "pipelines/model/scene_warnings.hpp"
@@ -37,12 +38,13 @@ void tell_ranks(Progress& progress) {
 }
 
 /// Of a mesh it takes seconds where modes are many.
-ReducedModel telling_model_of(const SceneDescription& scene, const SolvedStructure* structure,
-                              Progress& progress, std::vector<std::string>& warnings) {
-  if (structure == nullptr) return model_of(scene, structure, warnings);
+SimulatedScene telling_model_of(const SceneDescription& scene, const SolvedStructure* structure,
+                                Progress& progress, std::vector<std::string>& warnings) {
+  if (structure == nullptr)
+    return simulated(scene, model_of(scene, structure, warnings), structure);
   const Progress::Part part = progress.part(
       fmt::format("linear limits of {} modes", structure->modes.basis.frequency.size()));
-  return model_of(scene, structure, warnings);
+  return simulated(scene, model_of(scene, structure, warnings), structure);
 }
 
 /// Of a large mesh it takes seconds.
@@ -95,10 +97,15 @@ StructurePointer solved_structure(const SceneDescription& scene, int cores, RunR
   return std::make_shared<const SolvedStructure>(std::move(structure));
 }
 
-ReducedModel reduced_model(const SceneDescription& scene, const StructurePointer& structure,
-                           RunRecord& record) {
-  std::vector<std::string> warnings = scene_warnings(scene);
-  ReducedModel model = telling_model_of(scene, structure.get(), record.progress(), warnings);
+void add_model(Solution& solution, RunRecord& record) {
+  const StructurePointer& structure = solution.structure;
+  std::vector<std::string> warnings = scene_warnings(solution.scene);
+  SimulatedScene chosen =
+      telling_model_of(solution.scene, structure.get(), record.progress(), warnings);
+  solution.scene = std::move(chosen.scene);
+  solution.model = std::move(chosen.model);
+  const SceneDescription& scene = solution.scene;
+  const ReducedModel& model = solution.model;
   for (const std::string& warning : warnings) record.progress().warning(warning);
   if (model.static_preload) {
     record.progress().info(
@@ -118,7 +125,6 @@ ReducedModel reduced_model(const SceneDescription& scene, const StructurePointer
   record.keep_effects(std::move(effects));
   record.keep_model(model);
   if (structure) record.keep_structure(structure->mesh, structure->modes.basis);
-  return model;
 }
 
 }  // namespace microslip::pipelines

@@ -13,8 +13,8 @@ namespace microslip::pipelines {
 [[nodiscard]] StructurePointer solved_structure(const SceneDescription& scene, int cores,
                                                 RunRecord& record);
 
-/// → contact: the arrays the response stage needs.
-[[nodiscard]] ReducedModel reduced_model(const SceneDescription& scene,
-                                         const StructurePointer& structure, RunRecord& record);
+/// → contact: the arrays the response stage needs. What `auto` leaves out by their indicators is
+/// taken out of the scene of the solution as well.
+void add_model(Solution& solution, RunRecord& record);
 
 }  // namespace microslip::pipelines

@@ -14,6 +14,7 @@
 #include "fem/blas_threads.hpp"
 #include "fem/rank_messages.hpp"
 #include "fem/ranks.hpp"
+#include "pipelines/description/effects_left_out.hpp"
 #include "pipelines/files/model_members.hpp"
 #include "pipelines/files/result_members.hpp"
 #include "pipelines/response/response_stage.hpp"
@@ -66,7 +67,7 @@ std::string bytes_of(const SceneDescription& scene, const ReducedModel& model) {
   Settings effects;
   for (const auto& [name, setting] : scene.effects) effects.push_back({name, setting});
   return message(seconds_left() + seconds_spent(), seconds_spent(), scene.complete_toml,
-                 scene.file.string(), effects, scene.settings.harmonics,
+                 scene.file.string(), effects, left_out_by_choice(scene), scene.settings.harmonics,
                  scene.settings.second_direction, model);
 }
 
@@ -81,6 +82,7 @@ Family family_of(ByteReader bytes) {
   scene.file = file;
   scene.effects.clear();
   for (auto& [name, setting] : next<Settings>(bytes)) scene.effects.emplace_back(name, setting);
+  leave_out_by_choice(scene, next<std::vector<std::string>>(bytes));
   bytes(scene.settings.harmonics);
   bytes(scene.settings.second_direction);
   bytes(family.model);

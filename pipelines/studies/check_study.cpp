@@ -21,6 +21,7 @@
 #include "pipelines/effects/effect_indicators.hpp"
 #include "pipelines/effects/effects.hpp"
 #include "pipelines/effects/model_family.hpp"
+#include "pipelines/effects/simulated_scene.hpp"
 #include "pipelines/import/given_matrices.hpp"
 #include "pipelines/import/matrix_checks.hpp"
 #include "pipelines/model/contact_preload.hpp"
@@ -238,8 +239,8 @@ std::string describe_frequencies(const ReducedModel& model) {
 }
 
 /// What `run` asks of modes.
-ReducedModel check_modes(const SolvedStructure& structure, const SceneDescription& scene,
-                         CheckResult& result, std::ostream& out) {
+SimulatedScene check_modes(const SolvedStructure& structure, const SceneDescription& scene,
+                           CheckResult& result, std::ostream& out) {
   for (const std::string& line : structure.modes.notes) out << line << '\n';
   result.warnings.insert(result.warnings.end(), structure.modes.warnings.begin(),
                          structure.modes.warnings.end());
@@ -249,7 +250,7 @@ ReducedModel check_modes(const SolvedStructure& structure, const SceneDescriptio
     require_curves(model, scene);
   }
   out << describe_frequencies(model) << '\n';
-  return model;
+  return simulated(scene, std::move(model), &structure);
 }
 
 /// What the matrices say by themselves.
@@ -269,11 +270,9 @@ std::string static_preload_in(const mesh::Mesh& mesh, const SceneDescription& sc
                                      : describe_static_preload(mesh, scene);
 }
 
-/// @return the model, where the scene brings its modes.
-std::optional<ReducedModel> check_meshed(const SceneDescription& scene,
-                                         const std::filesystem::path& picture,
-                                         const RunOptions& options, CheckResult& result,
-                                         std::ostream& out) {
+/// @return whether modes are known.
+bool check_meshed(const SceneDescription& scene, const std::filesystem::path& picture,
+                  const RunOptions& options, CheckResult& result, std::ostream& out) {
   const TemporaryFolder folder;
   require_memory_before_mesh(scene);
   const mesh::Mesh mesh = obtain_mesh(scene, folder.path() / "mesh.msh");
@@ -292,18 +291,20 @@ std::optional<ReducedModel> check_meshed(const SceneDescription& scene,
         "sticks holds");
   }
   ask(result, scene, mesh);
-  std::optional<ReducedModel> model;
+  std::optional<SimulatedScene> known;
   if (modes) {
-    model = check_modes({mesh, *modes}, scene, result, out);
-    ask(result, scene, *model);
+    known = check_modes({mesh, *modes}, scene, result, out);
+    ask(result, known->scene, known->model);
   }
+  const ReducedModel* model = known ? &known->model : nullptr;
+  const SceneDescription& as_simulated = known ? known->scene : scene;
   if (const std::string text = describe_preload(mesh, scene); !text.empty()) out << text << '\n';
   if (has_static_preload(scene)) out << static_preload_in(mesh, scene, modes) << '\n';
   if (!picture.empty()) {
     const std::string failure = draw_scene(mesh, scene, picture);
     if (!failure.empty()) result.warnings.push_back("--plot: " + failure);
   }
-  result.forecast = forecast_of(mesh, scene, model ? &*model : nullptr);
+  result.forecast = forecast_of(mesh, as_simulated, model);
   leave_out(options, result.forecast);
   describe(result.forecast, scene.response.has_value(), out);
   describe(scene.accuracy, out);
@@ -312,13 +313,13 @@ std::optional<ReducedModel> check_meshed(const SceneDescription& scene,
       result.warnings.push_back(std::move(text));
     }
   }
-  result.effects = effects_of(scene, model ? &*model : nullptr, &mesh);
+  result.effects = effects_of(as_simulated, model, &mesh);
   if (modes) {
     const SolvedStructure structure{mesh, std::move(*modes)};
-    tell_moments_left_out(scene, structure, result.effects);
-    if (is_short(mesh, scene)) tell_residual_left_out(scene, structure, result.effects);
+    tell_moments_left_out(as_simulated, structure, result.effects);
+    if (is_short(mesh, scene)) tell_residual_left_out(as_simulated, structure, result.effects);
   }
-  return model;
+  return known.has_value();
 }
 
 const char* left_to_run(bool modes_are_known) {
@@ -352,16 +353,16 @@ CheckResult check_study(const SceneDescription& scene, const std::filesystem::pa
       throw SceneError(
           fmt::format("--plot: a scene of kind \"{}\" has no mesh to draw", scene.kind));
     }
-    const ReducedModel model = check_modal(*modal, scene, out);
-    ask(result, scene, model);
-    result.effects = effects_of(scene, &model);
+    const SimulatedScene known = simulated(scene, check_modal(*modal, scene, out), nullptr);
+    ask(result, known.scene, known.model);
+    result.effects = effects_of(known.scene, &known.model);
     result.forecast.memory_gb = memory_without_a_mesh;
-    add_curves(scene, &model, result.forecast);
+    add_curves(known.scene, &known.model, result.forecast);
     leave_out(options, result.forecast);
     describe(result.forecast, scene.response.has_value(), out);
     describe(scene.accuracy, out);
   } else {
-    modes_are_known = check_meshed(scene, picture, options, result, out).has_value();
+    modes_are_known = check_meshed(scene, picture, options, result, out);
   }
   for (const EffectRecord& effect : result.effects) {
     if (effect.objection.empty()) continue;

@@ -91,6 +91,16 @@ def bounds(summary):
 
 
 NORMAL, ALONG_R = "effects.normal_motion=on", "effects.second_direction=on"
+SURFACES = ["effects.roughness=on", "effects.rate_dependence=on"]
+
+
+def surfaces(height=0, rate=0):
+    """Settings of a point that is compressed by 0.75 mm at rest, and vibrates by some mm at some m/s."""
+    rough = [f'contact.roughness={{ law = "cubic", height = {height} }}'] if height else []
+    law = [f'contact.friction_law={{ law = "exponential", static = 0.5, kinetic = 0.4, rate = {rate} }}'] if rate else []
+    return rough + law
+
+
 # Scene, its settings, and what everything on is beside harmonics up to 13 and no proof of linearity.
 CASES = {
     "chain": (f"{SCENES}/chain_2dof.toml", ["response.harmonics=auto", "response.optimum=", "response.optimum_range=",
@@ -113,12 +123,19 @@ CASES = {
     # A mode along r below the range, which contact lifts into it.
     "outside": ("outside", ["modal.frequency=[20, 18.5]", "modal.points[0].phi_u_2=0", "modal.points[0].phi_w_1=0",
                             "modal.points[0].phi_w_2=0.5"], [ALONG_R]),
+    # Rough surfaces and friction by speed, below their limits and above.
+    "smoother": ("smoother", surfaces(height=5e-5), [NORMAL, SURFACES[0]]),
+    "rougher": ("rougher", surfaces(height=5e-4), [NORMAL, SURFACES[0]]),
+    "slower": ("slower", surfaces(rate=0.01), [SURFACES[1]]),
+    "faster": ("faster", surfaces(rate=2), [SURFACES[1]]),
+    "both_laws": ("both_laws", surfaces(height=2e-5, rate=3e-3), [NORMAL, *SURFACES]),
     # Cells that are open at rest.
     "corner": (f"{SCENES}/chain_2dof_moment.toml", ["response.harmonics=auto", "response.preload=[30]", "response.maps=[]"], []),
 }
 REST = () if whole_campaigns() else ("faint_across", "outside")  # of both directions, as two others
 VALUES = {"third": {"preload": 12}, "veering": {}, "outside": {}, "faint_normal": {"normal": 1e-6}, "faint_across": {"across": 1e-11},
-          "both_ways": {"across": 0.3, "normal": 0.2}, "pulled": {"normal": 0.3, "static": -200}}
+          "both_ways": {"across": 0.3, "normal": 0.2}, "smoother": {"normal": 0.3}, "rougher": {"normal": 0.3}, "slower": {}, "faster": {},
+          "both_laws": {"normal": 0.3}, "pulled": {"normal": 0.3, "static": -200}}
 
 
 def random_case(seed):
@@ -156,6 +173,17 @@ class AutoAgreesWithEverythingOn(unittest.TestCase):
         self.assertIs(row["simulated"], False)
         self.assertLess(row["indicator"], row["threshold"])
         self.assertLess(row["bound"], 1e-6)
+        for name, settings, values in (("roughness", surfaces(height=5e-5), {"normal": 0.3}), ("rate_dependence", surfaces(rate=0.01), {})):
+            path = scene(f"little_{name}", **values)
+            little, whole = run(f"little_{name}", path, *settings), run(f"little_{name}_on", path, *settings, f"effects.{name}=on")
+            row = effect(little, name)
+            change = abs(peaks(whole)["scale_1"] / peaks(little)["scale_1"] - 1)
+            print(f"{name}: indicator {row['indicator']:.4f}, left out changes the peak by {100 * change:.4f} %, stated {100 * row['bound']:.4f} %")
+            self.assertEqual((row["simulated"], row["setting"], row["objection"]), (False, "auto", ""))
+            self.assertLess(row["indicator"], row["threshold"])
+            self.assertLess(row["bound"], 0.005)
+            self.assertLessEqual(change, row["bound"] + 1e-4)  # what both solve to
+            self.assertIs(effect(whole, name)["simulated"], True)
         proved = effect(run("stuck_auto", *CASES["stuck"][:1], *CASES["stuck"][1]), "nonlinearity")
         self.assertEqual((proved["simulated"], proved["bound"]), (False, 0.0))
         self.assertNotIn("no bound", proved["reason"])
@@ -288,6 +316,33 @@ class WhatMattersIsPutBack(unittest.TestCase):
             self.assertGreater(abs(peaks(off)[curve] / amplitude - 1), 0.02)
             print(f"{curve}: without normal motion {100 * (peaks(off)[curve] / amplitude - 1):+.2f} %")
         self.assertEqual(len(auto["error_budget"]), len(on["error_budget"]))  # none is left of the curves without
+
+    def test_roughness_of_a_point_that_carries_little_and_matters(self):
+        # Nearly all of the load presses a point that hardly moves along the normal: the compression of all, 37 mm, says nothing
+        # of the other one, whose surfaces are pressed by 0.08 mm with a height of 1 mm.
+        path = scene("uneven", preload=3, normal=0.1)
+        with open(path, "a", encoding="utf-8") as file:
+            file.write("""[[modal.points]]
+weight = 1
+tangential_stiffness = 4e4
+normal_stiffness = 4e4
+friction_coefficient = 0.5
+preload = 3000
+phi_u_1 = 0.01
+phi_u_2 = -0.01
+""")
+        settings = [*surfaces(height=1e-3), "response.harmonics=3", "modal.force_sine=[3, 0.2]"]
+        auto, on, off = (run(f"uneven{name}", path, *settings, *more) for name, more in (
+            ("", []), ("_on", ["effects.roughness=on"]), ("_off", ["effects.roughness=off"])))
+        row = effect(auto, "roughness")
+        self.assertLess(row["indicator"], row["threshold"])
+        self.assertEqual((row["simulated"], row["setting"], row["objection"]), (True, "auto", ""))
+        self.assertIn("switched on after the run", row["reason"])
+        without, with_it = peaks(off)["scale_1"], peaks(on)["scale_1"]
+        print(f"uneven: without roughness {100 * (without / with_it - 1):+.2f} %, told {100 * row['switched_on']:.2f} %")
+        self.assertGreater(abs(without / with_it - 1), 0.02)
+        self.assertLess(abs(row["switched_on"] - abs(without / with_it - 1)), 1e-3)
+        self.assertLess(abs(peaks(auto)["scale_1"] / with_it - 1), 1e-5)
 
     def test_a_motion_in_time(self):
         # One frequency beside the resonance; the force on the second mode nearly balances the stuck contact there.

@@ -210,7 +210,7 @@ TEST(MissedEffects, ThoseThatAutoLeavesOutAndThatMatterArePutBack) {
 TEST(MissedEffects, ThoseThatMatterElsewhereArePutBackAsWell) {
   for (const char* goal :
        {amplitude_there_goal, resonance_goal, end_amplitude_goal, peak_outside_goal}) {
-    for (const char* name : {"normal_motion", "second_direction"}) {
+    for (const char* name : {"normal_motion", "second_direction", "roughness", "rate_dependence"}) {
       const auto missed = [&](double change) {
         return missed_names({{"a", peak_amplitude_goal, name, 1e-3, ErrorKind::solved, 0.1},
                              {"a", goal, name, change, ErrorKind::solved, 0.1}},
@@ -231,8 +231,8 @@ TEST(MissedEffects, ASwitchOfTheUserIsObeyed) {
 
 TEST(MissedEffects, WhatARunCannotPutBackIsNotMissed) {
   EXPECT_TRUE(missed_names({{"a", peak_amplitude_goal, "harmonics", 0.5, ErrorKind::solved, 0.1},
-                            {"a", peak_amplitude_goal, "mesh", 0.5, ErrorKind::solved, 0.1}},
-                           {left_out("higher_harmonics"), left_out("roughness")})
+                            {"a", peak_amplitude_goal, "moments", 0.5, ErrorKind::solved, 0.1}},
+                           {left_out("higher_harmonics"), left_out("moments")})
                   .empty());
 }
 

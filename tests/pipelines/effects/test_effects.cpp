@@ -11,11 +11,14 @@
 #include <fmt/format.h>
 
 #include "contact/harmonics.hpp"
+#include "pipelines/description/effects_left_out.hpp"
 #include "pipelines/effects/contact_effects.hpp"
 #include "pipelines/effects/effect_choice.hpp"
 #include "pipelines/effects/effect_indicators.hpp"
 #include "pipelines/effects/effects.hpp"
 #include "pipelines/effects/model_family.hpp"
+#include "pipelines/effects/simulated_scene.hpp"
+#include "pipelines/files/model_file.hpp"
 #include "pipelines/model/contact_stage.hpp"
 #include "pipelines/model/reduced_model.hpp"
 #include "pipelines/model/scene_warnings.hpp"
@@ -461,10 +464,69 @@ TEST(Effects, TheForecastTellsWhatIsDrawnAfterTheCurves) {
     const ReducedModel model = model_in(scene);
     return effect_in(effects_of(scene, &model), "maps").seconds;
   };
-  const double one = maps({"response.maps=[\"peak\"]"}).value_or(0.0);
-  EXPECT_GT(one, 0.0);
-  EXPECT_DOUBLE_EQ(maps({}).value_or(0.0), one);  // what they would take at the peak
-  EXPECT_GT(maps({"response.maps=[\"peak\", \"folds\"]"}).value_or(0.0), one);
+  const double at_peak = maps({"response.maps=[\"peak\"]"}).value_or(0.0);
+  EXPECT_GT(at_peak, 0.0);
+  EXPECT_DOUBLE_EQ(maps({}).value_or(0.0), at_peak);  // what they would take
+  EXPECT_GT(maps({"response.maps=[\"peak\", \"folds\"]"}).value_or(0.0), at_peak);
+}
+
+// The point is compressed by 2 mm at rest; its friction falls with the speed of slip.
+Overrides with_surfaces(double height, double rate) {
+  return {fmt::format("contact.roughness={{ law = \"cubic\", height = {} }}", height),
+          fmt::format("contact.friction_law={{ law = \"hyperbolic\", static = 0.5, rate = {} }}",
+                      rate)};
+}
+
+std::vector<std::string> left_to_auto(const Overrides& surfaces, const Overrides& more = {}) {
+  Overrides all = surfaces;
+  all.insert(all.end(), more.begin(), more.end());
+  const SceneDescription scene = scene_of(all);
+  return to_leave_out(scene, model_in(scene));
+}
+
+using Names = std::vector<std::string>;
+
+TEST(Effects, SurfacesThatMatterTooLittleAreLeftOut) {
+  EXPECT_EQ(left_to_auto(with_surfaces(5e-5, 1e-6)), (Names{"roughness", "rate_dependence"}));
+  EXPECT_EQ(left_to_auto(with_surfaces(1e-3, 1e-6)), Names{"rate_dependence"});
+  EXPECT_EQ(left_to_auto(with_surfaces(5e-5, 1.0)), Names{"roughness"});
+  EXPECT_EQ(left_to_auto(with_surfaces(1e-3, 1.0)), Names{});
+}
+
+TEST(Effects, SurfacesAreLeftOutWhereThatIsAskedForAndCanBeProved) {
+  const Overrides little = with_surfaces(5e-5, 1e-6);
+  EXPECT_EQ(left_to_auto(little, {"effects.roughness=on"}), Names{"rate_dependence"});
+  EXPECT_EQ(left_to_auto(little, {"effects.rate_dependence=off"}), Names{"roughness"});
+  EXPECT_EQ(left_to_auto(little, {"response.method=time"}), Names{});
+  EXPECT_EQ(
+      left_to_auto(little, {"response.frequency=[11, 13]", "response.optimum=modal.damping_ratio",
+                            "response.optimum_range=[5e-3, 2e-2]"}),
+      Names{});
+  EXPECT_EQ(left_to_auto(little, {"accuracy.tolerance=0.5 %"}).size(), 2U);  // half of the limits
+  EXPECT_EQ(left_to_auto(little, {"accuracy.tolerance=0.1 %"}), Names{"rate_dependence"});
+}
+
+// Of plane contact with the stiffness of full contact, the coefficient that of rest.
+TEST(Effects, AModelWithoutThemIsThatOfAnotherScene) {
+  const SceneDescription scene = scene_of(with_surfaces(5e-5, 1e-6));
+  const SimulatedScene one_less = simulated(scene, model_in(scene), nullptr);
+  EXPECT_FALSE(is_rough(one_less.scene));
+  EXPECT_FALSE(is_rough(one_less.model));
+  EXPECT_EQ(arrays_of(one_less.model), arrays_of(model_in(scene_of({}))));
+  const std::vector<EffectRecord> told = effects_of(one_less.scene, &one_less.model);
+  for (const char* name : {"roughness", "rate_dependence"}) {
+    const EffectRecord& effect = effect_in(told, name);
+    EXPECT_EQ(effect.simulated, Simulated::no) << name;
+    EXPECT_EQ(effect.setting, "auto") << name;
+    EXPECT_LT(effect.indicator.value(), effect.threshold.value()) << name;
+    EXPECT_TRUE(effect.objection.empty()) << effect.objection;
+    EXPECT_GT(effect.seconds.value_or(0.0), 0.0) << name;
+    EXPECT_TRUE(is_given(with_effect(one_less.scene, name), name));
+  }
+  const SceneDescription at_another_load =
+      with_value(one_less.scene, "modal.points[0].preload", 40.0);
+  EXPECT_FALSE(is_rough(at_another_load));
+  EXPECT_FALSE(is_rate_dependent(at_another_load));
 }
 
 // Above its limit an effect that is given is missed.
