@@ -1,6 +1,7 @@
 #include "pipelines/effects/effect_indicators.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -445,6 +446,48 @@ std::vector<double> turning_forces(const ReducedModel& model, const SceneDescrip
     for (std::size_t k = 0; k < most.size(); ++k) {
       const double force = turning_force(model.patches[k], motion.q);
       most[k] = std::max(most[k], std::isfinite(force) ? force : unlimited);
+    }
+  }
+  return most;
+}
+
+namespace {
+
+/// Of a motion along a face.
+struct Spread {
+  double mean = 0.0;       ///< square of the mean over the area [m²]
+  double variation = 0.0;  ///< mean square of what differs from it [m²]
+  [[nodiscard]] double size() const { return mean + variation; }
+};
+
+Spread spread_of(const contact::PatchSamples& cells, const Eigen::VectorXcd& q) {
+  const Eigen::VectorXd share = cells.weights / cells.weights.sum();
+  Spread spread;
+  for (const Eigen::MatrixXd* shape : {&cells.shapes.u, &cells.shapes.w}) {
+    if (shape->size() == 0) continue;
+    const Eigen::VectorXcd motion = shape->cast<std::complex<double>>() * q;
+    const std::complex<double> mean = share.cast<std::complex<double>>().dot(motion);
+    spread.mean += std::norm(mean);
+    spread.variation += share.dot((motion.array() - mean).abs2().matrix());
+  }
+  return spread;
+}
+
+}  // namespace
+
+double uneven_motion(const ReducedModel& model, const SceneDescription& scene) {
+  double most = 0.0;
+  const std::vector<LimitMotion> motions = limit_motions(model, scene);
+  for (const contact::Patch& patch : model.patches) {
+    std::array<Spread, 2> largest;  // of the limits
+    for (const LimitMotion& motion : motions) {
+      if (!motion.in_range || !motion.q.allFinite()) continue;
+      const Spread spread = spread_of(patch.cells, motion.q);
+      Spread& of_limit = largest[motion.stuck ? 1 : 0];
+      if (spread.size() > of_limit.size()) of_limit = spread;
+    }
+    for (const Spread& spread : largest) {
+      most = std::max(most, std::sqrt(ratio(spread.variation, 3.0 * spread.mean)));
     }
   }
   return most;

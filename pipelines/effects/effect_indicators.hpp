@@ -78,6 +78,11 @@ struct HarmonicAnswer {
 /// Of one patch in one motion, its first harmonic.
 [[nodiscard]] double turning_force(const contact::Patch& patch, const Eigen::VectorXcd& motion);
 
+/// Root mean square over a face of the variation of its motion along p and r, over its mean, over
+/// √3: 1/3 of one that is zero at one edge and varies linearly. Of each linear limit where in the
+/// range it moves the face most, the largest of both and of all patches.
+[[nodiscard]] double uneven_motion(const ReducedModel& model, const SceneDescription& scene);
+
 /// |μ(σ) − μ(0)|/μ(0) at the highest speed σ of the linear limits, in the range and at resonances
 /// that contact bends into it, the largest of all patches; of the law that the scene gives,
 /// simulated or not.

@@ -113,7 +113,8 @@ std::optional<double> tilt_size(const ReducedModel& model, const SceneDescriptio
     const SceneDescription with = with_effect(scene, "moments");
     return tilt_size(reduced_model(with), with);
   }
-  double most = std::max(turning_size(model, scene), uneven_pressure(model));
+  double most =
+      std::max({turning_size(model, scene), uneven_pressure(model), uneven_motion(model, scene)});
   const double force = smallest_force(model, scene);
   for (const contact::Patch& patch : model.patches) {
     for (const contact::TiltedArea& area : patch.tilted_areas) {

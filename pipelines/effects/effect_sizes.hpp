@@ -20,8 +20,8 @@ namespace microslip::pipelines {
 [[nodiscard]] double roughness_size(const ReducedModel& model, const SceneDescription& scene);
 
 /// Moment over load times half the size of its area, the larger about p and r: that of the preload,
-/// or of the load that the motion of the stuck limit changes; or as much of a pressure at rest that
-/// is uneven in another way.
+/// or of the load that the motion of the stuck limit changes; or as much of a pressure at rest, or
+/// of a motion along the face, that is uneven in another way.
 /// Infinite without load. None: areas of a mesh are left out, and with them their size.
 [[nodiscard]] std::optional<double> tilt_size(const ReducedModel& model,
                                               const SceneDescription& scene);

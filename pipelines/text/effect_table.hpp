@@ -56,7 +56,8 @@ inline constexpr std::array effect_table{
               "change of the coefficient up to the highest speed of the linear limits", 0.003,
               "the coefficient is the same at every speed of slip", true},
     EffectRow{"moments", "areas of contact, which carry moments",
-              "moment over load times half the size, or unevenness of the pressure at rest",
+              "moment over load times half the size, or unevenness of the pressure at rest or of "
+              "the motion along the face",
               1.0 / 3.0,
               "a contact point carries forces alone: turning neither loads nor opens it"},
     EffectRow{"residual", "residual flexibility of omitted modes",

@@ -596,6 +596,27 @@ TEST(Effects, APressureThatIsUnevenIsWhatMomentsAreFor) {
   EXPECT_FALSE(told("off").objection.empty());
 }
 
+// Points that move by 1.8 and 0.2 of their mean slip one after the other; that of one in the middle
+// alone slips at once.
+TEST(Effects, AFaceThatMovesUnevenlyIsWhatMomentsAreFor) {
+  const auto told = [](double other, const char* setting) {
+    const SceneDescription scene = scene_of(
+        {fmt::format("modal.points=[{{ weight = 1, tangential_stiffness = 3e3, normal_stiffness = "
+                     "0, friction_coefficient = 0.5, preload = 4, phi_u_1 = 1.8, p = 0, r = 0 }}, "
+                     "{{ weight = 1, tangential_stiffness = 3e3, normal_stiffness = 0, "
+                     "friction_coefficient = 0.5, preload = 4, phi_u_1 = {}, p = 1, r = 0 }}]",
+                     other),
+         std::string("effects.moments=") + setting});
+    const ReducedModel model = model_in(scene);
+    return effect_in(effects_of(scene, &model), "moments");
+  };
+  EXPECT_NEAR(*told(0.2, "auto").indicator, 0.8 / std::sqrt(3.0), 1e-12);
+  EXPECT_NEAR(*told(0.2, "off").indicator, 0.8 / std::sqrt(3.0), 1e-12);
+  EXPECT_FALSE(told(0.2, "off").objection.empty());
+  EXPECT_NEAR(*told(1.8, "off").indicator, 0.0, 1e-7);
+  EXPECT_TRUE(told(1.8, "off").objection.empty());
+}
+
 TEST(Effects, OfAPlaneFaceNothingIsLostWithoutLocalFrames) {
   const SceneDescription scene = read_scene(MICROSLIP_SCENES "/blade_to_ground.toml", {});
   ReducedModel model;
