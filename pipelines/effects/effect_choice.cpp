@@ -242,6 +242,7 @@ double limit_of(const EffectRow& row, const SceneDescription& scene) {
 /// for it where that of the scene does not.
 bool may_leave_out(const EffectFacts& facts, std::string_view name) {
   if (facts.setting(name) != "auto" || in_time(facts.scene)) return false;
+  if (!facts.scene.accuracy.error_budget) return false;
   const auto& optimum = facts.scene.response->optimum;
   return !optimum || optimum->of_preload();
 }

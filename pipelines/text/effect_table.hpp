@@ -53,7 +53,7 @@ inline constexpr std::array effect_table{
     EffectRow{"roughness", "rough surfaces", "height of the roughness over the compression at rest",
               0.1, "surfaces are as stiff under a small load as in full contact", true},
     EffectRow{"rate_dependence", "friction coefficient by slip speed",
-              "change of the coefficient up to the highest speed of the linear limits", 0.003,
+              "change of the coefficient up to the highest speed of the linear limits", 3e-4,
               "the coefficient is the same at every speed of slip", true},
     EffectRow{"moments", "areas of contact, which carry moments",
               "moment over load times half the size, or unevenness of the pressure at rest or of "

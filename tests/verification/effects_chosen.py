@@ -126,9 +126,9 @@ CASES = {
     # Rough surfaces and friction by speed, below their limits and above.
     "smoother": ("smoother", surfaces(height=5e-5), [NORMAL, SURFACES[0]]),
     "rougher": ("rougher", surfaces(height=5e-4), [NORMAL, SURFACES[0]]),
-    "slower": ("slower", surfaces(rate=0.01), [SURFACES[1]]),
+    "slower": ("slower", surfaces(rate=0.001), [SURFACES[1]]),
     "faster": ("faster", surfaces(rate=2), [SURFACES[1]]),
-    "both_laws": ("both_laws", surfaces(height=2e-5, rate=3e-3), [NORMAL, *SURFACES]),
+    "both_laws": ("both_laws", surfaces(height=2e-5, rate=3e-4), [NORMAL, *SURFACES]),
     # Cells that are open at rest.
     "corner": (f"{SCENES}/chain_2dof_moment.toml", ["response.harmonics=auto", "response.preload=[30]", "response.maps=[]"], []),
 }
@@ -173,16 +173,16 @@ class AutoAgreesWithEverythingOn(unittest.TestCase):
         self.assertIs(row["simulated"], False)
         self.assertLess(row["indicator"], row["threshold"])
         self.assertLess(row["bound"], 1e-6)
-        for name, settings, values in (("roughness", surfaces(height=5e-5), {"normal": 0.3}), ("rate_dependence", surfaces(rate=0.01), {})):
+        for name, settings, values in (("roughness", surfaces(height=5e-5), {"normal": 0.3}), ("rate_dependence", surfaces(rate=0.001), {})):
             path = scene(f"little_{name}", **values)
             little, whole = run(f"little_{name}", path, *settings), run(f"little_{name}_on", path, *settings, f"effects.{name}=on")
             row = effect(little, name)
             change = abs(peaks(whole)["scale_1"] / peaks(little)["scale_1"] - 1)
-            print(f"{name}: indicator {row['indicator']:.4f}, left out changes the peak by {100 * change:.4f} %, stated {100 * row['bound']:.4f} %")
+            print(f"{name}: indicator {row['indicator']:.4f}, left out changes the peak by {100 * change:.5f} %, stated {100 * row['bound']:.5f} %")
             self.assertEqual((row["simulated"], row["setting"], row["objection"]), (False, "auto", ""))
             self.assertLess(row["indicator"], row["threshold"])
             self.assertLess(row["bound"], 0.005)
-            self.assertLessEqual(change, row["bound"] + 1e-4)  # what both solve to
+            self.assertLessEqual(change, row["bound"] + 1e-6)  # what both solve to
             self.assertIs(effect(whole, name)["simulated"], True)
         proved = effect(run("stuck_auto", *CASES["stuck"][:1], *CASES["stuck"][1]), "nonlinearity")
         self.assertEqual((proved["simulated"], proved["bound"]), (False, 0.0))

@@ -498,6 +498,7 @@ TEST(Effects, SurfacesAreLeftOutWhereThatIsAskedForAndCanBeProved) {
   EXPECT_EQ(left_to_auto(little, {"effects.roughness=on"}), Names{"rate_dependence"});
   EXPECT_EQ(left_to_auto(little, {"effects.rate_dependence=off"}), Names{"roughness"});
   EXPECT_EQ(left_to_auto(little, {"response.method=time"}), Names{});
+  EXPECT_EQ(left_to_auto(little, {"accuracy.error_budget=off"}), Names{});
   EXPECT_EQ(
       left_to_auto(little, {"response.frequency=[11, 13]", "response.optimum=modal.damping_ratio",
                             "response.optimum_range=[5e-3, 2e-2]"}),
