@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -39,6 +40,24 @@ namespace microslip::tests {
   const int n = whole_campaigns() ? whole * campaign_times() : std::clamp(whole / 10, least, whole);
   std::printf("campaign: cases 0 to %d of %d\n", n - 1, whole);
   return n;
+}
+
+struct Seeds {
+  int first = 0;
+  int n = 0;
+};
+
+/// Where each case has a seed of its own: those that MICROSLIP_CAMPAIGN_SEEDS="FIRST N" names, or
+/// the first `whole` of a whole campaign; none in every run of the tests, which chooses its own.
+[[nodiscard]] inline std::optional<Seeds> campaign_seeds(int whole) {
+  Seeds seeds;
+  const char* asked = std::getenv("MICROSLIP_CAMPAIGN_SEEDS");
+  if (asked == nullptr) {
+    return whole_campaigns() ? std::optional<Seeds>({0, whole * campaign_times()}) : std::nullopt;
+  }
+  if (std::sscanf(asked, "%d %d", &seeds.first, &seeds.n) == 2) return seeds;
+  throw std::invalid_argument(std::string("MICROSLIP_CAMPAIGN_SEEDS is ") + asked +
+                              ", not a seed and a number of seeds");
 }
 
 /// The parameters a study runs over: some of them in every run.

@@ -9,6 +9,7 @@
 #include "contact/line/line_events.hpp"
 #include "contact/sampled/patch_force.hpp"
 #include "contact/transient/patch_transient.hpp"
+#include "tests/support/draw.hpp"
 #include "tests/support/readable_patch.hpp"
 
 namespace microslip::tests {
@@ -37,28 +38,6 @@ Eigen::VectorXd chain_frequencies() {
   const double root = std::sqrt(half_trace * half_trace - k1 * k2);
   return Eigen::Vector2d(std::sqrt(half_trace - root), std::sqrt(half_trace + root));
 }
-
-class Draw {
- public:
-  explicit Draw(std::uint64_t seed) : state_(seed) {}
-  double uniform(double low, double high) {
-    return low + (high - low) * static_cast<double>(next() >> 11) * 0x1p-53;
-  }
-  double log_uniform(double low, double high) {
-    return std::exp(uniform(std::log(low), std::log(high)));
-  }
-  int whole(int low, int high) { return low + static_cast<int>(uniform(0.0, high - low + 1.0)); }
-  bool chance(double share) { return uniform(0.0, 1.0) < share; }
-
- private:
-  std::uint64_t next() {  // splitmix64 (Steele, Lea & Flood 2014)
-    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15U);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
-    return z ^ (z >> 31);
-  }
-  std::uint64_t state_;
-};
 
 solver::Scene random_structure(Draw& draw, int n_modes, double force) {
   solver::Scene scene;
