@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
-"""Random scenes of every kind that needs no mesh, every law of friction and several numbers of harmonics, through the
-command line.
+"""Random scenes of every kind, every law of friction and one to seven harmonics, through the command line: points and chains of
+1, 3 and 5 harmonics here, bars, blocks, areas, several contacts, small meshes and the other numbers in random_models.py.
 
 Hard: nobody chose these scenes so that they work: stiff and soft contacts, gaps, light damping, loads of every size,
 curves that fold and part.
 Right: a complete curve, or a diagnosis that has a name (how many of each is told); never a signal, code 1 or 5, a number that is none, or rows that are
 no solutions: a march through sampled time, which shares no code with the program, finds the forces of some rows again.
 
-usage: random_runs.py MICROSLIP WORK_FOLDER [N] [SEED]      N scenes, 2000 where MICROSLIP_CAMPAIGNS=whole, else 7 (one harmonic
-of every kind and law); the seed is 1 by default. A scene is SEED.NUMBER and does not depend on N. Prints a line for each scene that
-is not complete, or takes longer than the 99 % are to take, as it goes, and a table at the end, also where it is stopped by SIGINT or
-SIGTERM. Exit code 1: a scene was wrong; 3: stopped.
+usage: random_runs.py MICROSLIP WORK_FOLDER [N] [SEED] [models]      N scenes, 2000 where MICROSLIP_CAMPAIGNS=whole, else one harmonic
+of every kind and law; the seed is 1 by default; models: those of random_models.py, seed 3. A scene is SEED.NUMBER, or models
+SEED.NUMBER, and does not depend on N. Prints a line for each scene that is not complete, or takes longer than the 99 % are to take, as
+it goes, and a table at the end, also where it is stopped by SIGINT or SIGTERM. Exit code 1: a scene was wrong; 3: stopped.
 """
 import collections
 import csv
@@ -147,21 +147,58 @@ def scene_of(seed, number):
     return (kind, law, harmonics), *modal_scene(draw, law, harmonics, kind == "planar")
 
 
+def model_as_points(folder, known, load):
+    """The numbers of a modal scene, read from the model of a run; `known` is its law."""
+    import h5py  # runs without meshes do without
+
+    with h5py.File(os.path.join(folder, "model.h5")) as file:
+        contact = {name: np.array(file["contact"][name]) for name in
+                   ("weights", "tangential_stiffness", "normal_stiffness", "friction_coefficient", "preload", "phi_u", "phi_v")}
+        modal = {"frequency": np.array(file["angular_frequency"]) / (2.0 * np.pi), "damping_ratio": np.array(file["damping_ratio"])}
+        modal |= {name: np.array(file[name]) for name in ("force_sine", "force_cosine")}
+    names = {"weight": "weights", "preload": "preload"} | {name: name for name in list(contact)[1:4]}
+    modal["points"] = []
+    for i in range(len(contact["weights"])):
+        point = {name: float(contact[of][i]) for name, of in names.items()}
+        point["preload"] *= load
+        for way in "uv":
+            point |= {f"phi_{way}_{n + 1}": float(value) for n, value in enumerate(contact[f"phi_{way}"][i])}
+        modal["points"].append(point)
+    return modal | {"law": known}
+
+
+def law_of(text):
+    """Of a modal scene: as its coefficient is marched through."""
+    found = re.search(r'law = "(exponential|hyperbolic)", static = (\S+), (?:kinetic = (\S+), )?rate = (\S+) ', text)
+    return found and (found[1], float(found[2]), float(found[3] or 0.0), float(found[4]))
+
+
+def coefficient(modal, column, speed):
+    """By the imposed speed [m/s]."""
+    if not modal.get("law"):
+        return np.broadcast_to(column, speed.shape)
+    name, rest, fast, rate = modal["law"]
+    falls = fast + (rest - fast) * np.exp(-rate * speed) if name == "exponential" else rest / (1.0 + rate * speed)
+    return np.where(column > 0.0, falls, 0.0)
+
+
 def imbalance(modal, states):
     """Largest force left over in the equations of motion (theory, section 13), of the largest term in them."""
     n_modes, points = len(modal["frequency"]), modal["points"]
     q = states[:, 1:].reshape(len(states), -1, n_modes)  # rows: mean, sin 1, cos 1, …
     n_harmonics = (q.shape[1] - 1) // 2
     theta = 2.0 * np.pi * np.arange(4096) / 4096
-    basis = [np.ones_like(theta)]
+    basis, rates = [np.ones_like(theta)], [np.zeros_like(theta)]
     for k in range(1, n_harmonics + 1):
         basis += [np.sin(k * theta), np.cos(k * theta)]
+        rates += [k * np.cos(k * theta), -k * np.sin(k * theta)]
     basis = np.array(basis)
     column = {key: np.array([point.get(key, 0.0) for point in points]) for key in points[0]}
     phi = [np.array([[point.get(f"phi_{way}_{i + 1}", 0.0) for i in range(n_modes)] for point in points]) for way in "uv"]
     u, v = (np.einsum("cn,rhn,ht->trc", shape, q, basis) for shape in phi)
     load = np.maximum(column["preload"] + column["normal_stiffness"] * v, 0.0)
-    friction = march(column["tangential_stiffness"], column["friction_coefficient"], u, load,
+    speed = np.abs(np.einsum("cn,rhn,ht->trc", phi[0], q, np.array(rates))) * (2.0 * np.pi * states[:, 0])[None, :, None]
+    friction = march(column["tangential_stiffness"], coefficient(modal, column["friction_coefficient"], speed), u, load,
                      column["preload"] + column["normal_stiffness"] * v)
     load = load - np.maximum(column["preload"], 0.0)
     traction = sum(np.einsum("trc,c,cn->trn", force, column["weight"], shape) for force, shape in ((friction, phi[0]), (load, phi[1])))
@@ -198,7 +235,7 @@ def march(stiffness, mu, u, load, pressure):
         rise = pressure[now] - pressure[before]
         since = np.where(begins, pressure[now] / np.where(rise == 0.0, 1.0, rise), 1.0)  # share of the step in contact
         trial = np.where(begins, 0.0, force) + stiffness * since * (u[now] - u[before])
-        force = np.clip(trial, -mu * load[now], mu * load[now])
+        force = np.clip(trial, -mu[now] * load[now], mu[now] * load[now])
         friction[now] = force
     return friction
 
@@ -212,31 +249,44 @@ def stop(number, _frame):
 
 
 class Campaign:
-    def __init__(self, program, work, seed):
-        self.program, self.work, self.seed = program, work, seed
+    def __init__(self, program, work, seed, models=False):
+        self.program, self.work, self.seed, self.models = program, work, seed, models
         self.outcomes = collections.defaultdict(collections.Counter)
         self.seconds, self.worst, self.n_rows, self.n_marched = [], 0.0, 0, 0
         shutil.rmtree(work, ignore_errors=True)
         os.makedirs(work)
 
     def case(self, number):
-        row, text, modal = scene_of(self.seed, number)
+        row, text, numbers = self.scene(number)
         folder = os.path.join(self.work, str(number))
         os.makedirs(folder)
         with open(os.path.join(folder, "scene.toml"), "w", encoding="utf-8") as file:
             file.write(text)
+        if row[0] == "mesh":
+            random_models.write_mesh(os.path.join(folder, "cantilever.msh"))
         code, words, seconds = self.run(folder)
         try:
-            outcome = self.outcome(folder, code, words, modal if row[:2] == ("points", "constant") else None, seconds)
+            outcome = self.outcome(folder, code, words, numbers, seconds)
         except AssertionError as wrong:
             outcome = "WRONG"
             words = str(wrong)
         self.seconds.append(seconds)
         self.outcomes[row][outcome] += 1
         if outcome != "complete" or seconds > LONG:
-            print(f"{self.seed}.{number} ({' '.join(map(str, row))}): {outcome}, {seconds:.1f} s: {words.strip()[:250]}", flush=True)
+            print(f"{'models ' if self.models else ''}{self.seed}.{number} ({' '.join(map(str, row))}): {outcome}, {seconds:.1f} s: {words.strip()[:250]}", flush=True)
         if outcome == "complete":
             shutil.rmtree(folder)
+
+    def scene(self, number):
+        """As scene_of(), and what gives the numbers of its points in a run folder; None: its rows are not marched through."""
+        if not self.models:
+            row, text, modal = scene_of(self.seed, number)
+            return row, text, (lambda run: modal) if row[:2] == ("points", "constant") else None
+        row, text, how = random_models.model_of(self.seed, number)
+        if how is None:
+            return row, text, None
+        known, load = (law_of(text), 1.0) if row[0] in ("points", "bar") else how[1:]
+        return row, text, lambda run: model_as_points(run, known, load)
 
     def run(self, folder):
         with open(os.path.join(folder, "words"), "w+", encoding="utf-8") as words:
@@ -253,8 +303,9 @@ class Campaign:
             words.seek(0)
             return process.returncode, words.read(), used.ru_utime + used.ru_stime
 
-    def outcome(self, folder, code, words, modal, seconds):
-        if code == 3 and seconds >= CAP:  # told by SIGXCPU, which interrupts it
+    def outcome(self, folder, code, words, numbers, seconds):
+        # By SIGXCPU and nothing else; the limit counts ticks of the clock, on a busy machine up to a third more than was used.
+        if code == 3 and "interrupted" in words:
             return OVER
         if code < 0:
             raise AssertionError(f"ended by signal {-code}")
@@ -267,8 +318,8 @@ class Campaign:
                 table = file.read()
             if re.search(r"nan|inf", table):
                 raise AssertionError(f"{name}: a number that is none")
-            if name.endswith(".states.csv") and modal:
-                self.march(name, table, modal)
+            if name.endswith(".states.csv") and numbers:
+                self.march(name, table, numbers(os.path.join(folder, "run")))
         curves = json.loads(said)["curves"]
         if not all(curve["complete"] or curve["diagnosis"] for curve in curves):
             raise AssertionError("incomplete without a name")
@@ -329,12 +380,12 @@ def counted(outcomes):
     return counts
 
 
-def main(program, work, n, seed):
+def main(program, work, n, seed, models):
     began = time.monotonic()
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, stop)
-    campaign = Campaign(os.path.abspath(program), work, seed)
+    campaign = Campaign(os.path.abspath(program), work, seed, models)
     number, stopped = 0, ""
     try:
         for number in range(n):
@@ -342,12 +393,17 @@ def main(program, work, n, seed):
         number = n
     except Stopped as by:
         stopped = f", stopped by {by}"
-    print(f"the first {number} of scenes {seed}.0 to {seed}.{n - 1} in {time.monotonic() - began:.0f} s{stopped}:")
+    print(f"the first {number} of {'models' if models else 'scenes'} {seed}.0 to {seed}.{n - 1} in {time.monotonic() - began:.0f} s{stopped}:")
     return campaign.report() or (3 if stopped else 0)
 
 
 if __name__ == "__main__":
+    import random_models  # which draws as this file does
+
     if len(sys.argv) < 3:
         sys.exit(__doc__)
-    asked = [int(word) for word in sys.argv[3:]]
-    sys.exit(main(sys.argv[1], sys.argv[2], asked[0] if asked else 2000 if whole_campaigns() else 7, asked[1] if len(asked) > 1 else 1))
+    of_models = sys.argv[-1] == "models"
+    asked = [int(word) for word in sys.argv[3:len(sys.argv) - of_models]]
+    one_each = len(random_models.KINDS if of_models else KINDS)
+    sys.exit(main(sys.argv[1], sys.argv[2], asked[0] if asked else 2000 if whole_campaigns() else one_each,
+                  asked[1] if len(asked) > 1 else 3 if of_models else 1, of_models))
