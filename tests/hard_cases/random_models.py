@@ -1,6 +1,10 @@
 """Random scenes of kinds that random_runs.py has no points for: bars, blocks on rough areas with moments, chains with areas and
 several contacts, small meshes with their modes, one contact or two, and points with one to seven harmonics.
 
+Hard: as in random_runs.py; a contact is of many points, moments lift some of them, and modes come from a mesh.
+Met in: campaigns, which were of points and chains alone.
+Right: as in random_runs.py, which runs them.
+
 model_of(seed, number) gives (kind, law, harmonics), the scene and how its rows are marched through (None: they are not); a mesh is
 written beside the scene by write_mesh().
 """

@@ -1,6 +1,10 @@
 #!/usr/bin/env python3
 """Modes of other codes give the curve that the program's own modes give.
 
+Rows 57, 58. Hard: matrices and modes of another code, of other units and another normalisation.
+Met in: exports of CalculiX and Nastran.
+Right: rescaled and told, or refused; the same peaks.
+
 Reference: the mesh of share/scenes/plate/plate.inp, as .msh, solved here. Its modes and attachment shapes, written in full,
 come back as .npz, .csv and .med: peaks agree to the solver's tolerance. Nastran punches eight digits of an eigenvalue and
 seven of a displacement: 1e-6. CalculiX integrates hex20 with the same 27 points;

@@ -1,6 +1,10 @@
 #!/usr/bin/env python3
 """share/scripts/convert_mesh.py: node orders, names, bad input.
 
+Row 56. Hard: every code has an order of nodes of its own, and a straight element hides a wrong one.
+Met in: decks of Abaqus, Nastran and others.
+Right: one curved element of each type keeps its volume.
+
 Files are written by tests/support/mesh_files.py, from the manuals of the codes; what comes out is put in order by
 meshio's table of gmsh's orders, which knows nothing of ours. Node orders: one curved element of every type, so that an edge node
 in another's place is 0.01 or more away.

@@ -1,3 +1,7 @@
+// Row 50. Hard: a solution that nothing goes to, beside two that are stable.
+// Met in: paper B, figure 9, preloads of 25 to 50 N.
+// Right: integration in time comes back to stable ones and leaves the other.
+//
 // Stability of harmonic balance with five harmonics against time integration (theory sections
 // 17, 20.4), where three solutions coexist: 25, 30 and 50 N, at three frequencies inside the band
 // between the folds.

@@ -1,6 +1,10 @@
 #!/usr/bin/env python3
 """Two patches against one: the halves of a face, each a contact of its own, give what the whole face gives.
 
+Row 17. Hard: contacts that are apart: sums, shares and maps may forget or double a part.
+Met in: blades that rub at several faces.
+Right: the halves are the whole.
+
 A cantilever of bricks rubs with a part of its upper face. Once that part is one surface, once two surfaces of the
 same bricks. With fit = "none" and residual = "none" the contact points are the same, in another order: sums over them
 differ by rounding, and peaks by no more than 1e-9 (Newton's method ends at residuals of 1e-12 of the force; a peak

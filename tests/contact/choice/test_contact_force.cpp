@@ -89,6 +89,10 @@ double difference(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   return (a - b).norm() / (1.0 + b.norm());
 }
 
+// Row 17. Hard: contacts that are apart: sums over patches may forget or double a part.
+// Met in: blades that rub at several faces.
+// Right: every force, report and memory is that of the one patch they make up.
+//
 // Points are the same, in another order of sums.
 TEST(ContactForce, TwoPatchesAreTheOneTheyMakeUp) {
   for (const Case& c : cases()) {

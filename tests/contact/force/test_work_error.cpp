@@ -135,6 +135,9 @@ Kept of_rates(const Make& make) {
   return kept;
 }
 
+// Row 91. Hard: a solution whose residual is small although its works do not agree.
+// Met in: certificates of random curves above 1e-10.
+// Right: located events promise the work of slip to rounding.
 TEST(WorkError, OfLocatedEventsIsRounding) {
   const Kept plain = along_a_line([](const test::MotionCase& c) {
     return located(std::make_shared<LineEvents>(c.point), false);
@@ -151,6 +154,10 @@ TEST(WorkError, OfACoefficientByTheSpeedIsRounding) {
   EXPECT_LT(kept.nearest, 1.0);
 }
 
+// Row 92. Hard: a coefficient that falls by most of itself within a small part of the slip.
+// Met in: rows that were left out for their work of slip.
+// Right: the work of slip is that of the force to rounding.
+//
 /// From a coefficient that hardly changes to one that changes within thin layers of time.
 TEST(WorkError, OfACoefficientThatFallsWithinLayersIsRounding) {
   std::mt19937_64 random(14);

@@ -99,6 +99,9 @@ TEST(ModalContactField, PolynomialsAreReproducedAndTheirDegreeIsFound) {
   EXPECT_LE((ours.w - expected.w).cwiseAbs().maxCoeff(), 1e-12);
 }
 
+// Row 20. Hard: a steep gradient in a mode shape, which no polynomial follows.
+// Met in: the edge of a contact.
+// Right: the error that is told is that of fits without the sample.
 TEST(ModalContactField, LeaveOneOutErrorIsThatOfFitsWithoutTheSample) {
   const Samples s = scattered(12, 3);
   const ModalShapes shapes = shapes_at(s.p, s.r);
@@ -160,6 +163,9 @@ TEST(ModalContactField, SamplesOnALineCarryAFieldAlongIt) {
   }
 }
 
+// Row 15. Hard: a patch of one sample of a mode shape: nothing to fit by.
+// Met in: faces of one element.
+// Right: a constant field with the value of the sample.
 TEST(ModalContactField, OneSampleGivesAConstant) {
   const Eigen::VectorXd one = Eigen::VectorXd::Ones(1);
   const ModalShapes shapes{Eigen::MatrixXd::Constant(1, 2, 3.0), Eigen::MatrixXd::Zero(1, 2), {}};
@@ -171,6 +177,9 @@ TEST(ModalContactField, OneSampleGivesAConstant) {
   }
 }
 
+// Row 24. Hard: a degree that asks for more coefficients than there are samples.
+// Met in: fine fits on coarse meshes.
+// Right: the degree is lowered until the samples carry it, never a singular fit.
 TEST(ModalContactField, DegreeTheSamplesCannotCarryIsLowered) {
   const Samples s = scattered(7, 8);
   const ModalContactField field(s.p, s.r, s.weights, shapes_at(s.p, s.r), 12);

@@ -90,6 +90,10 @@ TEST(PreloadEquilibrium, SquareTipsOverBelowTwentySevenNewton) {
   }
 }
 
+// Row 22. Hard: a moment beyond the kern: an edge lifts off, which rows is not known before.
+// Met in: paper B, figure 10.
+// Right: force and moments balance over the rows that stay; tipping is refused.
+//
 // Three rows of the four carry: two equations for the two unknowns of the tilt, by hand.
 TEST(PreloadEquilibrium, LiftedRowsLeaveTheOthersInEquilibrium) {
   const PreloadEquilibrium at_rest = square_preload(40.0, 1.0);
@@ -213,6 +217,9 @@ TEST(PreloadEquilibrium, FlatAreasBalanceBothMoments) {
   EXPECT_NEAR(-cells.y.dot(at_rest.pressures), 0.2, 1e-12 * 0.2);
 }
 
+// Row 15. Hard: an area of one cell: no lever for a moment.
+// Met in: contact areas cut to a single point.
+// Right: the cell carries the force.
 TEST(PreloadEquilibrium, OneCellCarriesItAll) {
   const Eigen::VectorXd one = Eigen::VectorXd::Ones(1);
   const ContactArea area({0.2 * one, 0.0 * one, 2.0 * one});

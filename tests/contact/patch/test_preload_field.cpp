@@ -57,6 +57,9 @@ TEST(PreloadField, UniformPressureIsForceOverArea) {
   EXPECT_THROW((void)uniform_rest_load(Eigen::VectorXd::Zero(3), 1.0), std::invalid_argument);
 }
 
+// Row 21. Hard: a pressure that is negative in places: the total is not the integral.
+// Met in: measured and computed pressure fields.
+// Right: the pressed part carries the total; without a positive mean it is refused.
 TEST(PreloadField, AShapeIsScaledToTheTotalItCarries) {
   const PatchRule rule = l_shape();
   const Eigen::VectorXd shape = (200.0 * rule.p.array()).sin() + 0.2;  // partly a gap

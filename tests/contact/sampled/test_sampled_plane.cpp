@@ -138,6 +138,10 @@ TEST_P(PlaneSurfaces, ConvergeToThePlaneEventsInSecondOrder) {
   EXPECT_GT(rms[0] / rms[2], 64.0);
 }
 
+// Row 97. Hard: the load bends where an event passes an instant of a sampled period.
+// Met in: a cantilever that strikes: 60 folds that were none.
+// Right: the load of a plane is that along a line, mended: no fold for an instant.
+//
 // What friction does leaves the load alone: it is mended where contact opens and closes as along a
 // line, without which a patch that parts, little damped, has a saw tooth for every such instant.
 TEST(SampledPlane, TheLoadOfSmoothSurfacesIsThatAlongALine) {

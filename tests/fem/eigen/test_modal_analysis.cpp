@@ -101,6 +101,10 @@ TEST(ModalAnalysis, FewerModesThanRigidMotionsAreRigidMotions) {
   EXPECT_EQ(basis.frequency, Eigen::VectorXd::Zero(4));
 }
 
+// Row 26. Hard: a frequency that occurs twice: an eigensolver may find one of the twins.
+// Met in: square and round sections.
+// Right: both are found, orthogonal to each other.
+//
 // A square section bends with one frequency in two planes; a mesh of hexahedra keeps the symmetry.
 TEST(ModalAnalysis, TwinModesAreBothFound) {
   const mesh::Mesh mesh = test::box_mesh(
@@ -141,6 +145,10 @@ TEST(ModalAnalysis, ACountAtTheEndIsThatAtOnceAndLeavesModesAndSolutionsAsTheyAr
   expect_same(second.solve_static(load), first.solve_static(load));
 }
 
+// Row 32. Hard: the eigensolver misses a mode and converges all the same.
+// Met in: clusters of frequencies cut by the last one.
+// Right: the count of inertia tells that it is missing.
+//
 // Modes of a cube come in groups of one frequency, of which a Krylov method sees some.
 TEST(ModalAnalysis, ACountAtTheEndTellsThatModesWereMissed) {
   const mesh::Mesh cube =
@@ -180,6 +188,9 @@ TEST(ModalAnalysis, EveryModeOfASmallMeshIsFound) {
   EXPECT_LT((basis.frequency - exact).cwiseQuotient(exact).cwiseAbs().maxCoeff(), 1e-10);
 }
 
+// Row 27. Hard: a body that supports do not hold: the stiffness is singular.
+// Met in: blades free to turn.
+// Right: the rigid motions that are left are found as modes of no frequency.
 TEST(ModalAnalysis, ABodyHeldAtAPointKeepsThreeRotations) {
   Structure structure(bar(ElementType::tet10), titanium, {"corner"});
   const ModalBasis basis = structure.solve_modes({.n_modes = 5});
@@ -246,6 +257,9 @@ mesh::Mesh hinge() {
   return {nodes, {block}, {{"x0", {side}}}, {}};
 }
 
+// Row 28. Hard: parts that hang together by an edge: more zero modes than six.
+// Met in: meshes glued from several.
+// Right: refused as a mechanism.
 TEST(ModalAnalysis, AHingeInsideTheBodyIsAMechanism) {
   Structure free(hinge(), titanium, {});
   EXPECT_EQ(what_is_thrown(free, 10).substr(0, 10), "mechanism:") << what_is_thrown(free, 10);

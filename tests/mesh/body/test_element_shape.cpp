@@ -65,6 +65,10 @@ Eigen::MatrixX3d sliver(double lift) {
   return nodes;
 }
 
+// Row 30. Hard: a sliver has no short edge and no small face, and hardly a volume.
+// Met in: meshes of tetrahedra.
+// Right: told by its number.
+//
 // Lines at height 0 and `lift`: the dihedral at the edge 0–2 is π − 2 atan(lift), at 0–1 it is
 // small.
 TEST(ElementShape, SeesASliverWithoutAnyShortEdge) {

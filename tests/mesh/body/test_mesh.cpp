@@ -37,6 +37,9 @@ std::string message_of(const std::function<void()>& action) {
   return "no error";
 }
 
+// Row 25. Hard: faces that point inward in the file turn gaps into pressure.
+// Met in: converted meshes.
+// Right: the side of the volume decides, not the file.
 TEST(Mesh, TurnsFacesOutwardWhicheverWayTheFileHasThem) {
   for (const std::vector<Eigen::Index>& order : {std::vector<Eigen::Index>{0, 1, 2}, {0, 2, 1}}) {
     const Mesh mesh = single(ElementType::tet4, reference_nodes(ElementType::tet4),
@@ -65,6 +68,10 @@ TEST(Mesh, FindsATetrahedronThatIsInsideOutOnlyBetweenGaussPoints) {
   EXPECT_GT(jacobian_range(ElementType::tet10, nodes).least, 0.0);
 }
 
+// Row 30. Hard: an element may be inside out where no point of its integration looks.
+// Met in: curved elements of other meshers.
+// Right: refused by its number.
+//
 // 4·0.2 − 1 < 0 at one corner only, of every quadratic element.
 TEST(Mesh, FindsElementsThatAreInsideOutAtOneCornerOnly) {
   for (const ElementType type : all_element_types) {
@@ -124,6 +131,9 @@ TEST(Mesh, RefusesPartsThatDoNotHangTogether) {
   EXPECT_NE(message_of([] { two_parts(3.0); }).find("2 parts"), std::string::npos);
 }
 
+// Row 28. Hard: nodes that lie twice at one place: parts look joined and are not.
+// Met in: meshes exported part by part.
+// Right: refused, the nodes named.
 TEST(Mesh, RefusesNodesThatCoincideButAreNotJoined) {
   EXPECT_NE(message_of([] { two_parts(1.0); }).find("coincide"), std::string::npos);
 }

@@ -126,6 +126,10 @@ TEST_F(Blade, ElementsAreSmallerAtSharpEdgesWhereAskedFor) {
   EXPECT_THROW(mesh_blade(g, {0.010, 1e-5}, folder_ / "graded.msh"), MeshError);
 }
 
+// Row 31. Hard: curved elements turn inside out at edges thinner than they are long.
+// Met in: trailing edges of 50 µm.
+// Right: untangled: every element has its volume.
+//
 /// Large elements on a thin cambered aerofoil turn inside out when they are curved, and the
 /// optimisers leave some of them so: the reader refuses such a mesh.
 TEST_F(Blade, ElementsAtThinEdgesAreUntangled) {
@@ -176,6 +180,9 @@ TEST_F(Blade, ParametersOutOfRangeAreNamed) {
   EXPECT_NE(failure(g, 0.008).find("model.span"), std::string::npos);
 }
 
+// Row 63. Hard: the mesher is a program of others: it hangs, crashes, takes all memory.
+// Met in: a mesher killed from outside, which was blamed on the geometry.
+// Right: stopped or quoted by name, nothing left behind (this test and the next ones).
 TEST_F(Blade, AMesherThatHangsIsStopped) {
   use_mesher("exec sleep 60");
   MesherLimits limits;

@@ -124,6 +124,9 @@ TEST_F(Step, FileWithoutUnitSaysNone) {
   EXPECT_TRUE(step_length_units(file).empty());
 }
 
+// Row 55. Hard: statements that refer to none, or to ones of another kind.
+// Met in: STEP files edited by hand or cut off.
+// Right: told by line and number, before gmsh sees them.
 TEST_F(Step, DamagedStatementsAreToldByLineAndNumber) {
   // OpenCASCADE searched for more than five minutes for what a file of 80 kB without one of its
   // statements lacks.

@@ -57,6 +57,9 @@ TEST_F(File, LinesAreCountedOverBlocks) {
   EXPECT_EQ(zero->line, lines.size() + 1);
 }
 
+// Row 55. Hard: a right begin, then a gigabyte of zeros.
+// Met in: 1 GB of zeros, which took 13 to 54 s.
+// Right: refused with the line, memory bounded by a block.
 TEST_F(File, ZerosBehindARightBeginAreRefusedUnread) {
   for (const char* begin : {"$MeshFormat\n", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n"}) {
     const std::string message =

@@ -50,6 +50,10 @@ SceneDescription coarse_blade() {
                     {"model.element_size=\"12 mm\"", "response.harmonics=1"});
 }
 
+// Row 100. Hard: elements larger than the body is thick do not grow: a coarser mesh is no coarser.
+// Met in: the default blade at 12 mm: 0.03 % told, 3.7 % true.
+// Right: the error is told by the factor there is.
+//
 // As if sizes were halved, 0.8 % was told of 3.7 %.
 TEST(CoarserMesh, TellsTheErrorWhereElementsAreTooLargeToGrow) {
   const SceneDescription scene = coarse_blade();

@@ -182,6 +182,9 @@ TEST_F(Program, SaysWhyACurveIsIncompleteHoweverQuiet) {
   EXPECT_NE(outcome.err.find("no-start"), std::string::npos) << outcome.err;
 }
 
+// Row 82. Hard: a curve that takes longer than anybody waits.
+// Met in: random scenes of five harmonics.
+// Right: exit 4 as `budget`, with the points it has.
 TEST_F(Program, EndsACurveWhoseTimeIsOverWithWhatItHas) {
   write(path("scene.toml"), scene_text);
   for (const std::string method : {"harmonic_balance", "time"}) {
@@ -308,6 +311,10 @@ TEST_F(Program, NamesBadScenes) {
   }
 }
 
+// Row 93. Hard: a mesh that is a link to a device has no end.
+// Met in: a link to a device as a mesh.
+// Right: refused within 2 s, as is everything that is no file.
+//
 /// What has no end is not read to it: neither for the mesh nor to tell whether it has changed.
 TEST_F(Program, AMeshWithoutEndIsRefusedAtOnce) {
   write(path("scene.toml"), run("init mesh").out);
@@ -436,6 +443,9 @@ TEST_F(Program, NumbersHaveAPointInAnyLocale) {
   }
 }
 
+// Row 59. Hard: a disk that is full from the begin.
+// Met in: runs on full disks.
+// Right: exit 4, what was there stays.
 TEST_F(Program, AFullDiskIsExitFour) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
   std::string command = "'" MICROSLIP_PROGRAM "' init modal > /dev/full 2> '";
@@ -635,6 +645,9 @@ TEST_F(Program, ResumesOnlyWhatWasBegun) {
          {"--resume: contact.points[0] is {", "friction_coefficient = 0.4", "but {"});
 }
 
+// Row 27. Hard: a free body has solutions only where the contact holds it.
+// Met in: scenes without supports.
+// Right: refused by name unless the stuck limit holds it.
 TEST_F(Program, RefusesARigidBodyModeThatNothingHolds) {
   write(path("scene.toml"), scene_text);
   expect("run scene.toml -o out --set 'modal.frequency=[0, 41.4]' --set 'modal.points=[]'", 2,
@@ -683,6 +696,9 @@ void interrupt(pid_t child, int signal = SIGINT) {
   EXPECT_EQ(WEXITSTATUS(status), 3);
 }
 
+// Row 60. Hard: an interrupt at any instant, within libraries too.
+// Met in: any run that takes long.
+// Right: exit 3 within a second, what is complete is kept, and how to go on is said.
 TEST_F(Program, AnInterruptEndsWithinASecondAndKeepsWhatIsComplete) {
   std::string scales = "[1";
   for (int i = 2; i <= 3000; ++i) scales.append(",").append(std::to_string(i));  // work for minutes
@@ -759,6 +775,10 @@ TEST_F(Program, LongNamesAreToldInAFewLines) {
   expect("cycle points.csv", 1, {"points.csv:1: a line of 2000000 bytes"});
 }
 
+// Row 72. Hard: libraries that wait for ever for threads they have no memory for.
+// Met in: `ulimit -v` of 200 to 450 MB: OpenBLAS hung, at exit too.
+// Right: exit 4 in words, or done; no hang, no signal.
+//
 /// Under a limit of the address space the threads of OpenBLAS cannot start.
 TEST_F(Program, LittleAddressSpaceIsNoHang) {
 #if defined(__SANITIZE_ADDRESS__)
@@ -817,6 +837,9 @@ TEST_F(Program, WhatMemoryClearlyDoesNotHoldIsNotMeshed) {
   EXPECT_FALSE(exists("out/mesh.msh"));
 }
 
+// Row 73. Hard: a limit of the file size ends a program by a signal.
+// Met in: `ulimit -f`, which left `.lock` and `.part`.
+// Right: exit 4, neither left, earlier results intact.
 TEST_F(Program, ALimitOfTheFileSizeIsExitFour) {
   write(path("scene.toml"), scene_text);
   ASSERT_EQ(run("run scene.toml -q -o out").code, 0);

@@ -349,6 +349,10 @@ TEST(CycleInTwoDirections, ACircleDissipatesTheClosedForm) {
   EXPECT_EQ(row["segments"][0]["state"], "slip");
 }
 
+// Row 12c. Hard: a straight motion oblique to p: friction along p alone drops a part of it.
+// Met in: patches whose slip direction is guessed.
+// Right: the cycle along the line, turned.
+//
 // Along a line planar events is the other one, turned.
 TEST(CycleInTwoDirections, AStraightObliqueMotionIsTheOtherOneTurned) {
   const Json straight = cycles(header + "1,1,0.5,1,5,0,0,0.2,0.1\n")[0];

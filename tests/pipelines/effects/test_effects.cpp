@@ -286,6 +286,9 @@ TEST(Effects, AMultipleOfTheFrequencyThatMeetsAModeIsSeen) {
   EXPECT_GT(answer("30").ratio, 5.0 * answer("35").ratio);
 }
 
+// Row 95. Hard: the curve is linear, a resonance beside the range reaches into it.
+// Met in: ranges beside a resonance.
+// Right: the search is made, or what it would tell is warned of.
 TEST(Effects, OtherSolutionsAreLookedForWhereAResonanceNearByReachesThem) {
   const auto starts = [](const Overrides& overrides) {
     const SceneDescription scene = scene_of(overrides);
@@ -304,6 +307,10 @@ TEST(Effects, OtherSolutionsAreLookedForWhereAResonanceNearByReachesThem) {
   EXPECT_EQ(starts({gap, "effects.coexistence=off"}), 0);
 }
 
+// Row 98. Hard: contact 1e84 times as stiff as the modes leaves nothing of them in a double.
+// Met in: a scene that had no first solution in 40 s.
+// Right: refused beyond 1e12, the keys named.
+//
 // The search for a first solution would not end, or end in rounding.
 TEST(Effects, AContactBesideWhichNothingIsLeftOfTheModesIsRefused) {
   const auto model = [](const char* stiffness) {
@@ -768,6 +775,10 @@ TEST(Effects, MotionAlongRThatDoesNothingIsLeftOutOfGivenModes) {
   EXPECT_NEAR(told("5e-5").indicator.value_or(0.0), 5e-5, 1e-9);
 }
 
+// Row 12c. Hard: a small peak that moves along r beside a large one that does not.
+// Met in: axes p chosen by the largest peak.
+// Right: friction along r counts, however small the peak.
+//
 // A mode along p, and a weakly excited one along r: its peak is small, and its motion is all along
 // r.
 TEST(Effects, APeakThatMovesAlongRCountsHoweverSmallBesideAnother) {

@@ -97,6 +97,9 @@ std::string complaint(const std::filesystem::path& folder) {
   return {};
 }
 
+// Row 62. Hard: a checkpoint of another version reads as numbers that mean something else.
+// Met in: runs resumed by a newer program.
+// Right: refused, both versions named.
 TEST(Checkpoint, PartsOfAnotherVersionAndDamagedOnesAreRefused) {
   const synthetic::Folder folder("checkpoint_refused");
   const std::filesystem::path file = folder.path() / "checkpoint" / "part";

@@ -94,6 +94,10 @@ std::vector<std::string> turned(double degrees, const std::string& residual) {
       "modes.residual=" + residual, "effects.second_direction=on"};
 }
 
+// Row 20. Hard: mode shapes that polynomials follow poorly at the edge of a contact.
+// Met in: meshed cantilevers that rub with a tip.
+// Right: `fit-poor`, and elements are interpolated unless the fit is asked for.
+//
 // Row 20: no polynomial follows a shape that jumps from node to node.
 TEST(PatchShapes, APoorFitIsTakenOnlyWhereItIsAsked) {
   const mesh::Mesh mesh = cantilever();
@@ -201,6 +205,9 @@ TEST(AttachedModel, TheSameModesGivenAsNumbersHaveTheSamePeak) {
   }
 }
 
+// Row 77. Hard: a gap given as a force is another length with every residual stiffness.
+// Met in: the blade with more and fewer modes.
+// Right: given as a length it is that length in every basis.
 TEST(AttachedModel, AGapGivenAsALengthIsThatLengthInEveryBasis) {
   const mesh::Mesh mesh = cantilever();
   for (const char* residual : {"attachment", "stiffness", "none"}) {

@@ -236,6 +236,9 @@ TEST(MeshNames, AMeshWithoutAnySaysHowToGiveThem) {
 
 TEST(Questions, TakeASmallCouponAsItIs) { expect_none(of_box({})); }
 
+// Row 78. Hard: linear elements lock as ν goes to 0.5: frequencies far too high, without a sign.
+// Met in: hex8 and tet4 of rubber-like materials.
+// Right: questioned above 0.45, refused at 0.5.
 TEST(Questions, AskForLinearElementsThatLock) {  // hard case 29
   const auto of = [](mesh::ElementType type, const char* ratio) {
     const SceneDescription scene = box_scene({std::string("material.poissons_ratio=") + ratio});

@@ -54,6 +54,9 @@ TEST_F(Summary, WhatSaysHowItEndedIsLeftAsItIs) {
   EXPECT_FALSE(std::filesystem::exists(file()));
 }
 
+// Row 59. Hard: a full disk has no room for the summary that would say so.
+// Met in: runs on full disks.
+// Right: the code is written in place, into blanks kept for it.
 TEST_F(Summary, ARunThatFindsNoRoomIsToldInTheBlanks) {
   RunSummary ended;
   ended.exit_code = ExitCode::incomplete;

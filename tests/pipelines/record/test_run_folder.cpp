@@ -56,6 +56,9 @@ TEST_F(Folder, ResultsStayUntilTheirSuccessorsArePublished) {
   EXPECT_FALSE(fs::exists(path("maps")));
 }
 
+// Row 75. Hard: a file of the user's own in a folder that a run fills anew.
+// Met in: runs over earlier ones, which deleted foreign files in `curves/` and `plots/`.
+// Right: kept: a run removes what runs have written.
 TEST_F(Folder, WhatNoRunHasWrittenIsKept) {
   earlier_run();
   write_whole(path("curves/mine.csv"), "mine");

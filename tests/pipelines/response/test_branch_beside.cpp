@@ -48,6 +48,9 @@ void expect_branch(const CurveResult& result, const CurveResult& whole, double l
   EXPECT_GT(found, 5.0 * highest_peak(result.curve)->amplitude);
 }
 
+// Row 95. Hard: the curve is proved linear, and a branch 14 times as high leads into its range.
+// Met in: ranges beside a resonance.
+// Right: found by the curve of that resonance, followed into the range.
 TEST(BranchBeside, IsFoundWhereAResonanceBelowTheRangeClosesAGap) {
   const char* modes =
       "frequency = [20, 52]\ndamping_ratio = [0.005, 0.01]\nforce_sine = [7, 0.5]\n";

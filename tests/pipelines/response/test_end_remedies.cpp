@@ -46,6 +46,9 @@ void expect_remedy(std::string_view text, const std::string& of) {
   for (const std::string& thing : things) EXPECT_TRUE(is_known(thing)) << of << ": " << thing;
 }
 
+// Row 85. Hard: a name of a diagnosis helps nobody who does not know the solver.
+// Met in: incomplete curves of the campaigns.
+// Right: every end names a key to set.
 TEST(EndRemedies, EveryEndOfACurveNamesWhatToSet) {
   for (const Method method : {Method::harmonic_balance, Method::time}) {
     EXPECT_TRUE(remedy_of(solver::Diagnosis::none, method).empty());

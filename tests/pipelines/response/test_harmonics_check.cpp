@@ -62,6 +62,10 @@ TEST(HarmonicsCheck, TellsWhatMoreDoWhateverTheNumberOfModes) {
   }
 }
 
+// Row 99. Hard: the range ends between the peaks with few and with more harmonics.
+// Met in: ranges set by a curve of one harmonic.
+// Right: climbed from inward: a peak is told by a peak, not by the end beside it.
+//
 // With one harmonic the peak lies at 22.19 Hz, with nine at 22.095: of a range that ends between
 // them the end is the highest place with one, and no longer with more.
 TEST(HarmonicsCheck, FindsAPeakInsideWhereTheEndOfTheRangeWasTheHighest) {
@@ -83,6 +87,10 @@ TEST(HarmonicsCheck, TellsAPeakByAPeakAndNotByTheEndOfTheRange) {
   EXPECT_NEAR(settled.frequency, truth, 1e-4 * truth);
 }
 
+// Row 96. Hard: one peak of one harmonic is two with more, and the higher one is elsewhere.
+// Met in: kω that meets a mode along the curve.
+// Right: the check tells the higher one.
+//
 // Mode 2, hardly damped, at three times the peak, which becomes two with harmonic 3: the lower one
 // is nearer to it.
 TEST(HarmonicsCheck, TellsTheHigherOfTwoPeaksBesideAnInternalResonance) {
@@ -191,6 +199,9 @@ harmonics = )" +
          harmonics + "\n";
 }
 
+// Row 103. Hard: a harmonic that was not given makes a higher peak away from the highest one.
+// Met in: 2.27e-3 m at 21.3 Hz where 1.24e-3 ± 0.7 % was told.
+// Right: traced with it; no bar where the choice was stopped before.
 TEST(HarmonicsCheck, LooksForHigherPeaksWhereAHarmonicResonates) {
   const CurveResult one = traced(with_third_harmonic("1"));
   const solver::ResponsePoint truth = *highest_peak(traced(with_third_harmonic("9")).curve);

@@ -45,6 +45,9 @@ CurveResult curve_of(const std::string& budget, const std::string& method,
   return trace_curve(model, scene, curve_requests(scene).front(), [](const auto&) { return true; });
 }
 
+// Row 82. Hard: a curve that takes longer than anybody waits.
+// Met in: random scenes of five harmonics.
+// Right: `budget` after response.time_budget, with the points it has.
 TEST(TimeBudget, EndsACurveByItsName) {
   for (const std::string method : {"harmonic_balance", "time"}) {
     const CurveResult whole = curve_of("off", method);

@@ -69,6 +69,9 @@ TEST(TimeResponse, AMotionOfTwicePeriodIsTold) {
   EXPECT_EQ(doubled.points[0].stability, solver::Stability::not_assessed);
 }
 
+// Row 82. Hard: one point of a motion in time may take longer than anybody waits.
+// Met in: motions of little damping.
+// Right: stopped within the point, those before are kept.
 TEST(TimeResponse, IsStoppedWithinAPointAndKeepsThoseBefore) {
   const Overrides sweep{"response.frequency=[25.0, 26.9]", "response.points=3",
                         "modal.damping_ratio=0.05"};

@@ -53,6 +53,9 @@ TEST(MatrixMarket, EntriesThatStandTwiceAreSummed) {
             expected);
 }
 
+// Row 57. Hard: matrices of another code that are asymmetric, of another size, numbered from 0.
+// Met in: exports of other codes.
+// Right: refused with the line; mended only where it can mean one thing.
 TEST(MatrixMarket, WhatIsWrongIsToldWithItsLine) {
   EXPECT_EQ(refusal(""), "K.mtx: the file ends at line 0; expected a header");
   EXPECT_NE(

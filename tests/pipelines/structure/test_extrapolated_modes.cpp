@@ -146,6 +146,10 @@ TEST(ExtrapolatedModes, RatesAreThoseOfSharpEdgesButWhereFieldsAreSmooth) {
   EXPECT_DOUBLE_EQ(observed_ratio(1.0, 2.0, 100.0), of_edges) << "an accident";
 }
 
+// Row 100. Hard: elements larger than the body is thick: nothing to extrapolate by.
+// Met in: the default blade at 12 mm.
+// Right: modes stay as they are where the meshes hardly differ.
+//
 // Elements of 24 mm are thicker than this blade, and its mesh has as many nodes as that of 32 mm:
 // the first frequency on 12 mm, 304.5 Hz, was taken to 302.2, where 293.4 is right.
 TEST(ExtrapolatedModes, AreLeftWhereElementsAreTooLargeToGrow) {

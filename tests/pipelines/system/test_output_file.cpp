@@ -85,6 +85,9 @@ TEST(OutputFile, UnwritableFolderIsNamedAndStaysEmpty) {
   std::filesystem::permissions(folder.path(), std::filesystem::perms::owner_all);
 }
 
+// Row 59. Hard: a disk that fills while a file is written over.
+// Met in: runs into shared folders.
+// Right: the old file stays whole, nothing stands beside it.
 TEST(OutputFile, FullDiskKeepsTheOldFileAndLeavesNothingElse) {
   const synthetic::Folder folder("output_full");
   const std::filesystem::path file = folder.path() / "a.txt";

@@ -181,6 +181,9 @@ TEST(Units, ZeroBytesDoNotHideWhatFollows) {
   EXPECT_TRUE(refuses(std::string_view("5 mm\0furlong", 12), "m"));
 }
 
+// Row 61. Hard: a locale with decimal commas changes how C reads and writes numbers.
+// Met in: machines set up in German or French.
+// Right: numbers have points.
 TEST(Units, NumbersHaveAPointInAnyLocale) {
   const std::string before = std::setlocale(LC_ALL, nullptr);
   for (const char* name : {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8"}) {

@@ -64,6 +64,9 @@ Eigen::VectorXd free_residual(HarmonicBalance& balance, const Eigen::VectorXd& x
   return balance.evaluate_homotopy(x, omega, 0.0, Eigen::MatrixXd::Zero(n, n)).residual;
 }
 
+// Row 81. Hard: a step of Newton's method to a frequency below 0, where friction would grow.
+// Met in: friction that falls with the speed.
+// Right: refused: there is no such excitation.
 TEST(HarmonicBalance, NothingIsSolvedBelowZeroFrequency) {
   const auto random = tests::random_scene(3);
   HarmonicBalance balance(random.scene, 1);

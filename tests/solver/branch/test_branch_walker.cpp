@@ -45,6 +45,9 @@ struct Tip {
   }
 };
 
+// Row 83. Hard: two parts that meet in a tip of a few degrees: a step along one lands on the other.
+// Met in: random scenes, where slip of a point begins (`hard_cases.sharp_tips`).
+// Right: the walk goes on along the other part, away from the tip.
 TEST(BranchWalker, ASharpTipIsPassedToTheOtherPart) {
   constexpr double start = -0.05;
   int n_tips = 0;
@@ -81,6 +84,9 @@ TEST(BranchWalker, ABranchPointIsNoTip) {
   EXPECT_GE(parameter_of(walker), 0.3);
 }
 
+// Row 86. Hard: another branch crosses where the branch bends: it looks like a tip.
+// Met in: random scenes (`hard_cases.sharp_tips`).
+// Right: the walk goes on, bent.
 TEST(BranchWalker, ABranchPointIsNoTipWhereTheBranchBends) {
   // x = 0 up to the branch point and x = s p beyond it, up to 27°; x = −p crosses.
   int n_bends = 0;
@@ -149,6 +155,9 @@ int n_turns_back(const TwinKink& kink, double u) {
   return n_turns;
 }
 
+// Row 87. Hard: two events at once turn the sign of the determinant.
+// Met in: motions that change sign after half a period.
+// Right: the kink is left along the part the walk did not come by.
 TEST(BranchWalker, KinksAtWhichTheBranchTurnsBackAreLeftAndTold) {
   // With two events at once the determinant turns with the branch.
   constexpr double first = -0.3;  // of u
@@ -195,6 +204,9 @@ struct TwoRegimes {
   }
 };
 
+// Row 89. Hard: several events at a kink: straight on lies a regime that is not the branch's.
+// Met in: friction that falls with the speed.
+// Right: the walk goes on into the regime in which its own tangent ends.
 TEST(BranchWalker, AKinkIsLeftIntoTheRegimeItsTangentEndsIn) {
   int n_kinks = 0;
   for (const auto& [alpha, beta] :
@@ -221,6 +233,10 @@ TEST(BranchWalker, AKinkIsLeftIntoTheRegimeItsTangentEndsIn) {
   EXPECT_EQ(n_kinks, 20);
 }
 
+// Row 94. Hard: a step to a part beside the one walked, both tangents along it.
+// Met in: scene 501.30: complete with 2 folds of 8.
+// Right: refused: a range and its parts have the same folds.
+//
 /// p = x − a tanh(x / w): the branch turns back on its way from one line to another beside it, and
 /// for steps longer than w both are as good.
 TEST(BranchWalker, AStepDoesNotLeadPastTwoFolds) {

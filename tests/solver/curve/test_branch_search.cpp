@@ -32,6 +32,9 @@ ContinuationOptions range(double begin, double end, int starts) {
   return options;
 }
 
+// Row 43. Hard: a loop that no sweep meets.
+// Met in: gaps under a force that barely closes them.
+// Right: the search finds it, and tells its number of starts.
 TEST(BranchSearch, FindsAnIsola) {
   const ResponseCurve curve = trace_response(with_isola(), range(0.6, 1.4, 12));
   ASSERT_TRUE(curve.complete) << curve.diagnosis;
@@ -51,6 +54,9 @@ TEST(BranchSearch, FindsAnIsola) {
   for (const ResponsePoint& point : curve.points) EXPECT_LT(point.amplitude, 2.0);
 }
 
+// Row 50b. Hard: the free response is proved, and another solution has contact.
+// Met in: gaps.
+// Right: the proof says "a solution", the search finds the other.
 TEST(BranchSearch, FindsTheContactingBranchBesideAProvedFreeOne) {
   // Row 50b. Gap 2, k_v twice the stiffness: above 1.15 rad/s the free amplitude stays below 0.62.
   tests::SinglePoint single;
@@ -125,6 +131,9 @@ TEST(BranchSearch, FollowsTheCurveOfAResonanceBesideTheRangeIntoIt) {
               1e-8 * known[2]);
 }
 
+// Row 68. Hard: at one frequency nothing is walked that could lead to another solution.
+// Met in: an open gap beside a solution 18 times larger.
+// Right: the search at that frequency finds it.
 TEST(BranchSearch, FindsTheOtherSolutionsAtASingleFrequency) {
   const std::vector<double> known = amplitudes_on_the_whole_curve(two_pi * 22.0);
   ASSERT_EQ(known.size(), 3U);

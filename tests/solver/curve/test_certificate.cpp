@@ -154,6 +154,10 @@ std::string what_is_wrong(const FaultyForce::Fault& fault) {
   return curve.message;
 }
 
+// Row 91. Hard: a solution of a small residual whose work or order of events is wrong.
+// Met in: 134 of 1 510 random curves.
+// Right: it is no row; the curve says what it lacks.
+//
 // Of the work of friction 1e-7 is more than located events leave.
 TEST(Certificate, NoRowIsMadeOfAnErrorInWorkOrOrder) {
   EXPECT_EQ(what_is_wrong({}), "");

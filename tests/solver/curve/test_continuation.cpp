@@ -284,6 +284,10 @@ TEST(Continuation, FoldsAreThoseOfTheClosedForm) {
   EXPECT_NEAR(folds[1].frequency, expected[0], 1e-12);
 }
 
+// Row 70. Hard: points that pile up in tiny steps.
+// Met in: 13 random scenes that used up 20 000 points.
+// Right: `budget`, with the frequencies between which half of them lie.
+//
 // Hard case 70: where points pile up is told.
 TEST(Continuation, NamesACurveThatDoesNotEndAndThePlaceWhereItsPointsAre) {
   ContinuationOptions options = frequency_range(0.5, 2.5);
@@ -309,6 +313,9 @@ TEST(Continuation, NamesACurveThatDoesNotEndAndThePlaceWhereItsPointsAre) {
   EXPECT_NEAR(high, *std::ranges::max_element(there), 1e-7 * high);
 }
 
+// Row 71. Hard: a branch that leaves by the end it came in by.
+// Met in: 16 random scenes that ended `out-of-range`.
+// Right: walked from the other end; complete means from end to end.
 TEST(Continuation, ABranchThatLeavesTheRangeWhereItBeganIsWalkedFromTheOtherEnd) {
   const Duffing duffing;
   const std::vector<double> folds = [&] {

@@ -42,6 +42,9 @@ TEST(UnmarkedPoints, ARowWhereTheFrequencyTurnsIsMarkedAndLogged) {
   EXPECT_EQ(curve.log[0].remedy, Remedy::fold_unsolved);
 }
 
+// Row 69. Hard: a peak at a kink where the frequency turns: one mark of two is lost.
+// Met in: tangential stiffness 1e10, damping 8e-6: 15 folds of 16.
+// Right: peak and fold, so that folds are even in number.
 TEST(UnmarkedPoints, APeakAtWhichTheBranchTurnsIsAFoldAsWell) {
   // Up to a fold, back to a peak and on: as many turns to the left as to the right.
   ResponseCurve curve = curve_of({{1.0, 1.0},

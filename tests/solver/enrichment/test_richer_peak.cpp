@@ -23,6 +23,9 @@ ContinuationOptions given(int n_harmonics, ContinuationOptions::Corrector correc
   return options;
 }
 
+// Row 66. Hard: peaks over harmonics such as 538, 548, 440, 498, 475, 481: no rule of one step.
+// Met in: internal resonances.
+// Right: the peak with more is solved for, and its change told.
 TEST(RicherPeak, IsThePeakOfTheCurveWithMoreHarmonics) {
   for (const double preload : {0.0, 10.0, 50.0}) {
     Scene scene = tests::three_dof_scene(preload);

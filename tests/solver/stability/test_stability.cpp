@@ -197,6 +197,9 @@ TEST(Stability, OfAMotionThatSticksThroughoutIsProvedWithoutEigenvaluesOrIntegra
   EXPECT_EQ(basis_at(3.0, false), StabilityBasis::hill);
 }
 
+// Row 34. Hard: damping below 0: a solution exists and nothing goes to it.
+// Met in: the project's list of hard cases.
+// Right: unstable.
 TEST(Stability, NegativeDampingIsUnstable) {
   tests::Duffing linear;
   linear.alpha = 0.0;
