@@ -258,16 +258,15 @@ void mirror(SceneNumbers& n) { n.u *= -1.0; }
 /// Axes of the patch turned; one direction becomes two. Forces of points that are sampled are
 /// other ones along a line (contact/sampled): nothing is said of those.
 std::optional<Comparison> of_turned_axes(const Walked& walked) {
-  const SceneNumbers& numbers = walked.numbers;
-  if (numbers.is_planar() && numbers.second_stiffness != 1.0) return {};
-  if (!numbers.is_planar() && numbers.is_sampled()) return {};
-  return after(walked, [](SceneNumbers& n) {
-    const Eigen::MatrixXd u = n.u;
-    const Eigen::MatrixXd w = n.is_planar() ? n.w : Eigen::MatrixXd::Zero(u.rows(), u.cols());
-    n.second_stiffness = 1.0;
-    n.u = std::cos(0.6) * u + std::sin(0.6) * w;
-    n.w = std::cos(0.6) * w - std::sin(0.6) * u;
-  });
+  if (walked.numbers.is_planar() && walked.numbers.second_stiffness != 1.0) return {};
+  SceneNumbers turned = walked.numbers;
+  if (!turned.is_planar()) turned.w = Eigen::MatrixXd::Zero(turned.u.rows(), turned.u.cols());
+  if (!walked.numbers.is_planar() && turned.is_sampled()) return {};
+  const Eigen::MatrixXd u = turned.u;
+  turned.second_stiffness = 1.0;
+  turned.u = std::cos(0.6) * u + std::sin(0.6) * turned.w;
+  turned.w = std::cos(0.6) * turned.w - std::sin(0.6) * u;
+  return compared(shape_of(turned, walked.seconds), walked.shape);
 }
 
 void add_still_mode(SceneNumbers& n) {
