@@ -307,19 +307,23 @@ std::optional<Comparison> of_work(const Walked& walked) {
   for (const solver::ResponsePoint& point : curve.points) {
     double brought = 0.0;
     double scale = 0.0;
-    for (Eigen::Index sine = 1; sine < undamped.excitation.rows(); sine += 2) {
+    for (Eigen::Index sine = 1; sine < point.q.rows().rows(); sine += 2) {
       const double k = pi * static_cast<double>((sine + 1) / 2);
-      const auto force = undamped.excitation.middleRows(sine, 2);
       const auto motion = point.q.rows().middleRows(sine, 2);
-      brought += k * (force.row(1).dot(motion.row(0)) - force.row(0).dot(motion.row(1)));
-      scale += k * std::max(force.norm(), (motion * stuck).norm()) * motion.norm();
+      double largest = (motion * stuck).norm();
+      if (sine < undamped.excitation.rows()) {
+        const auto force = undamped.excitation.middleRows(sine, 2);
+        brought += k * (force.row(1).dot(motion.row(0)) - force.row(0).dot(motion.row(1)));
+        largest = std::max(largest, force.norm());
+      }
+      scale += k * largest * motion.norm();
     }
     if (!(scale > 0.0)) continue;
     const double apart = std::abs(point.report.slip_work - brought) / scale;
     result.worst = std::max(result.worst, apart);
     if (!(apart <= 1e-9) && result.differs.empty()) {
       std::ostringstream words;
-      words << "slips " << point.report.slip_work << " J of " << brought << " at "
+      words << apart << ": slips " << point.report.slip_work << " J of " << brought << " at "
             << point.frequency / 2.0 / pi << " Hz";
       result.differs = words.str();
     }
