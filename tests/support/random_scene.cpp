@@ -6,30 +6,11 @@
 #include <random>
 #include <vector>
 
+#include "tests/support/draw.hpp"
+
 namespace microslip::tests {
-namespace {
-
-class Draw {
- public:
-  explicit Draw(std::uint64_t seed) : engine_(seed) {}
-  double uniform(double low, double high) {
-    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
-  }
-  double log_uniform(double low, double high) {
-    return std::exp(uniform(std::log(low), std::log(high)));
-  }
-  int whole(int low, int high) {
-    return std::min(high, static_cast<int>(uniform(low, high + 1.0)));
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
-
-}  // namespace
-
 RandomScene random_scene(std::uint64_t seed) {
-  Draw draw(seed);
+  DrawFrom<std::mt19937_64> draw(seed);  // seeds are stored
   const int n_modes = draw.whole(1, 6);
   const int n_points = draw.whole(1, 12);
   RandomScene result;

@@ -38,6 +38,7 @@
 #include "solver/continuation.hpp"
 #include "solver/time_integration.hpp"
 #include "tests/support/campaign.hpp"
+#include "tests/support/draw.hpp"
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/readable_patch.hpp"
 #include "tests/support/steady_states.hpp"
@@ -211,53 +212,39 @@ TEST(PlanarTime, TheReturnMapIsOfOrderOneAtLeast) {
   EXPECT_GT(order("rk4, return map", orbit({point, 1.2}), solver::TimeMethod::rk4, 256), 0.9);
 }
 
-/// splitmix64 (Steele, Lea & Flood 2014): the same on every machine.
-class Draw {
- public:
-  explicit Draw(std::uint64_t seed) : state_(seed) {}
-  double operator()(double low, double high) {
-    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15U);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
-    return low + (high - low) * static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
-  }
-
- private:
-  std::uint64_t state_;
-};
-
-SurfaceLaw random_law(Draw& draw, int kind) {
-  const double mu = draw(0.2, 0.8);
-  const contact::PointParameters p{draw(0.3, 2.0), draw(0.3, 2.0), mu, draw(-0.2, 0.6)};
-  const double k_w = p.tangential_stiffness * draw(0.5, 1.5);
+SurfaceLaw random_law(tests::Draw& draw, int kind) {
+  const double mu = draw.uniform(0.2, 0.8);
+  const contact::PointParameters p{draw.uniform(0.3, 2.0), draw.uniform(0.3, 2.0), mu,
+                                   draw.uniform(-0.2, 0.6)};
+  const double k_w = p.tangential_stiffness * draw.uniform(0.5, 1.5);
   if (kind == 0) return {p, k_w};
   if (kind == 1) {
-    return {p, k_w, FrictionLaw::exponential(mu, 0.5 * mu, draw(0.3, 2.0))};
+    return {p, k_w, FrictionLaw::exponential(mu, 0.5 * mu, draw.uniform(0.3, 2.0))};
   }
-  const double height = draw(0.1, 1.0);
+  const double height = draw.uniform(0.1, 1.0);
   if (kind < 4) {
     return {p, k_w, FrictionLaw::constant(mu),
             kind == 2 ? RoughSurface::cubic(height) : RoughSurface::matching_gaussian(height)};
   }
   // Bodies several times as soft as the surfaces along one direction: h of planar_point.hpp goes
   // far from 1.
-  const double soft = draw(1.0, 4.0) / p.tangential_stiffness;
-  const double stiff = draw(-0.3, 0.2) / k_w;
+  const double soft = draw.uniform(1.0, 4.0) / p.tangential_stiffness;
+  const double stiff = draw.uniform(-0.3, 0.2) / k_w;
   const contact::SeriesCompliance series{kind == 4 ? soft : stiff, 0.0, kind == 4 ? stiff : soft};
   return {p, k_w, FrictionLaw::constant(mu), RoughSurface::matching_gaussian(height), series};
 }
 
 solver::Scene random_planar_scene(std::uint64_t seed, int kind) {
-  Draw draw(seed);
-  const auto any = [&](Eigen::Index, Eigen::Index) { return draw(-1.0, 1.0); };
+  tests::Draw draw(seed);
+  const auto any = [&](Eigen::Index, Eigen::Index) { return draw.uniform(-1.0, 1.0); };
   const auto shape = [&] { return Eigen::MatrixXd::NullaryExpr(2, 3, any).eval(); };
   solver::Scene scene;
-  scene.natural_frequency = Eigen::Vector3d(1.0, draw(1.2, 2.0), draw(2.2, 3.0));
+  scene.natural_frequency = Eigen::Vector3d(1.0, draw.uniform(1.2, 2.0), draw.uniform(2.2, 3.0));
   scene.damping_ratio = Eigen::Vector3d::Constant(0.03);
   scene.output = Eigen::Vector3d::Ones();
   scene.excitation = contact::Harmonics(1, 3);
   scene.excitation.rows().bottomRows(2) = 0.6 * Eigen::MatrixXd::NullaryExpr(2, 3, any);
-  const Eigen::Vector2d weights(draw(0.5, 1.5), draw(0.5, 1.5));
+  const Eigen::Vector2d weights(draw.uniform(0.5, 1.5), draw.uniform(0.5, 1.5));
   const contact::ModalShapes shapes{shape(), shape(), shape()};
   std::vector<SurfaceLaw> laws;
   std::vector<std::shared_ptr<const contact::PointMethod>> cycles;
