@@ -1,5 +1,4 @@
 #include "pipelines/stages/accurate_curves.hpp"
-#include "pipelines/effects/picture_cost.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +11,7 @@
 
 #include "mesh/refined_mesh.hpp"
 #include "pipelines/accuracy/refinement.hpp"
+#include "pipelines/effects/picture_cost.hpp"
 #include "pipelines/stages/missed_effects.hpp"
 #include "pipelines/stages/solved_again.hpp"
 #include "pipelines/stages/stage_seconds.hpp"

@@ -114,9 +114,8 @@ void add_model(Solution& solution, RunRecord& record) {
   ask(record.progress(), scene, model);
   if (model.effects.second_direction) {
     record.progress().info(fmt::format(
-        "friction along r is simulated: motion along r is {} of that along p. This takes "
-        "some ten times "
-        "longer than friction along p; effects.second_direction = \"off\" leaves it out",
+        "friction along r is simulated: motion along r is {} of that along p. The table of "
+        "effects tells what that takes; effects.second_direction = \"off\" leaves it out",
         percent_text(model.effects.motion_ratio)));
   }
   std::vector<EffectRecord> effects =
