@@ -1,13 +1,14 @@
 """What `check` forecasts against what `run` takes, in processor seconds: sets of effects from one to all.
 
 The model is right to a factor of two; what other programs leave of the machine changes between forecast and run, so that four is
-asked for. Below half a second, of start and files, nothing is told.
+asked for, of the median of three where the first is beyond it. Below half a second, of start and files, nothing is told.
 
 usage: forecasts.py MICROSLIP SOURCE_FOLDER RUN_FOLDER          (MICROSLIP_CAMPAIGNS=whole: every scene, minutes)
 """
 import json
 import os
 import resource
+import statistics
 import subprocess
 import sys
 import unittest
@@ -113,16 +114,27 @@ def taken(name, path, settings):
     return processor_seconds() - begin
 
 
+def measured_ratio(name, path, settings):
+    told, used = forecast(path, settings), taken(name, path, settings)
+    ratio = max(told, LEAST) / max(used, LEAST)
+    print(f"{name:32}{told:8.1f} s{used:6.1f} s  {ratio:.2f}", flush=True)
+    return ratio
+
+
+def is_beyond(ratio):
+    return not 1 / FACTOR < ratio < FACTOR
+
+
 class Forecasts(unittest.TestCase):
     def test_are_what_a_run_takes(self):
         os.makedirs(FOLDER, exist_ok=True)
         print(f"{'scene':32}{'forecast':>10}{'taken':>8}  ratio")
         for name, (path, settings) in {**FEW, **(REST if whole_campaigns() else {})}.items():
             with self.subTest(name):
-                told, used = forecast(path, settings), taken(name, path, settings)
-                ratio = max(told, LEAST) / max(used, LEAST)
-                print(f"{name:32}{told:8.1f} s{used:6.1f} s  {ratio:.2f}", flush=True)
-                self.assertLess(max(ratio, 1 / ratio), FACTOR)
+                ratio = measured_ratio(name, path, settings)
+                if is_beyond(ratio):
+                    ratio = statistics.median([ratio, *(measured_ratio(name, path, settings) for _ in range(2))])
+                self.assertFalse(is_beyond(ratio), f"{ratio:.2f}")
 
 
 if __name__ == "__main__":
