@@ -47,11 +47,16 @@ bool asks_for_direction(const ReducedModel& model, const SceneDescription& scene
          only_limits(scene);
 }
 
-/// Switched off, on a face that is none.
+bool frames_are_off(const SceneDescription& scene) {
+  return setting_of(scene, "local_frames") == "off";
+}
+
+/// On a face that is not plane, switched off where it counts or left out because it hardly does.
 bool asks_for_frames(const ReducedModel& model, const SceneDescription& scene) {
-  if (setting_of(scene, "local_frames") != "off") return false;
-  return std::ranges::any_of(model.patches, [](const contact::Patch& patch) {
-    return patch.off_plane > effect_row("local_frames").threshold;
+  constexpr double plane = 1e-9;  // what a mesher rounds
+  const double limit = frames_are_off(scene) ? effect_row("local_frames").threshold : plane;
+  return std::ranges::any_of(model.patches, [limit](const contact::Patch& patch) {
+    return patch.cells.normals.rows() == 0 && patch.off_plane > limit;
   });
 }
 
@@ -72,11 +77,19 @@ bool is_switch(std::string_view name) {
   return name == "normal_motion" || name == "mean_coupling" || name == "second_direction";
 }
 
+SceneDescription with_frames(SceneDescription scene) {
+  const bool where_they_count = frames_are_off(scene);
+  for (ContactDescription& contact : scene.contacts) {
+    contact.local_frames = where_they_count ? std::nullopt : std::optional(true);
+  }
+  return scene;
+}
+
 SceneDescription described_with(const Names& names, SceneDescription scene) {
   for (const std::string& name : names) {
     if (is_switch(name)) continue;
     if (name == "local_frames") {
-      for (ContactDescription& contact : scene.contacts) contact.local_frames.reset();
+      scene = with_frames(std::move(scene));
     } else {
       scene = with_effect(scene, name);
     }
@@ -97,9 +110,8 @@ Eigen::MatrixXd with_more(const ReducedModel& from, const ReducedModel& to) {
 /// As the scene is described; which switches of the contact are on stays as it was.
 RicherModel built(const Names& names, const ReducedModel& model, const SceneDescription& with,
                   const SolvedStructure* structure) {
-  const bool changes_modes = std::ranges::any_of(described, [&](const Described& effect) {
-    return effect.changes_modes && has(names, effect.name);
-  });
+  const bool changes_modes = std::ranges::any_of(
+      names, [&](const std::string& name) { return leaving_out_changes_modes(name, with); });
   std::vector<std::string> warnings;  // those of the scene itself are told already
   RicherModel other;
   if (structure != nullptr && changes_modes) {
@@ -148,6 +160,14 @@ void add(const Names& names, const ReducedModel& model, const SceneDescription& 
 }
 
 }  // namespace
+
+bool leaving_out_changes_modes(std::string_view name, const SceneDescription& scene) {
+  // Of a face that is all but plane shapes of tractions along its mean normal do.
+  if (name == "local_frames" && !frames_are_off(scene)) return false;
+  return std::ranges::any_of(described, [name](const Described& effect) {
+    return effect.changes_modes && effect.name == name;
+  });
+}
 
 std::vector<std::string> effects_left_out(const ReducedModel& model,
                                           const SceneDescription& scene) {

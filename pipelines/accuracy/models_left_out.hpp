@@ -21,7 +21,8 @@ inline constexpr std::string_view together = " + ";
 /// where a scene forbids it though the patch moves along r, and what is "off" though other keys
 /// give it: roughness (not without normal motion), dependence on speed, moments, the shape of a
 /// static preload, axes of every place of a curved face; residual and rotation. Modes are solved
-/// for again for the last three. Several are put back together as well.
+/// for again for the last three, but for axes that are left out of a face that is all but plane.
+/// Several are put back together as well.
 /// Harmonics and friction along r that was left to the program are in the error budget; friction
 /// along r is here where there is none: of contact points that are given, in motions in time and in
 /// linear limits.
@@ -34,5 +35,8 @@ inline constexpr std::string_view together = " + ";
 /// Effects that a scene leaves out though it could have them: what they would change is to be told.
 [[nodiscard]] std::vector<std::string> effects_left_out(const ReducedModel& model,
                                                         const SceneDescription& scene);
+
+/// Whether modes are solved for again with an effect that the scene leaves out.
+[[nodiscard]] bool leaving_out_changes_modes(std::string_view name, const SceneDescription& scene);
 
 }  // namespace microslip::pipelines

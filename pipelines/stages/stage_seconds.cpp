@@ -53,11 +53,12 @@ double coarser_meshes_seconds(double degrees_of_freedom, const SceneDescription&
 double modes_again_seconds(double degrees_of_freedom, const SceneDescription& scene,
                            const ReducedModel* model) {
   if (!scene.accuracy.error_budget || !(degrees_of_freedom > 0.0)) return 0.0;
-  constexpr std::array with_modes{"residual", "centrifugal", "local_frames"};
+  constexpr std::array may_change_modes{"residual", "centrifugal", "local_frames"};
   std::vector<std::string> names;
   if (model != nullptr) names = effects_left_out(*model, scene);
   double n = 0.0;
-  for (const char* name : with_modes) {
+  for (const char* name : may_change_modes) {
+    if (!leaving_out_changes_modes(name, scene)) continue;
     const bool known = std::ranges::find(names, name) != names.end();
     if (known || (model == nullptr && left_out(scene, name) != nullptr)) n += 1.0;
   }
