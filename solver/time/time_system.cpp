@@ -46,6 +46,15 @@ double spectral_radius(const Eigen::MatrixXd& stiffness, const Eigen::VectorXd& 
   return values->cwiseAbs().maxCoeff();
 }
 
+/// Sines of the others would take most of the time that a few modes take.
+std::vector<int> driven_harmonics(const Harmonics& excitation) {
+  std::vector<int> driven;
+  for (int h = 1; h <= excitation.n_harmonics(); ++h) {
+    if ((excitation.rows().middleRows(2 * h - 1, 2).array() != 0.0).any()) driven.push_back(h);
+  }
+  return driven;
+}
+
 }  // namespace
 
 void require_for_time(bool condition, const std::string& message) {
@@ -55,6 +64,7 @@ void require_for_time(bool condition, const std::string& message) {
 TimeSystem::TimeSystem(const Scene& scene, double frequency)
     : scene_(scene), frequency_(frequency) {
   check(scene, frequency);
+  driven_ = driven_harmonics(scene.excitation);
   stiffness_ = scene.natural_frequency.array().square();
   damping_ = 2.0 * scene.damping_ratio.array() * scene.natural_frequency.array();
   const Eigen::MatrixXd free = stiffness_.asDiagonal();
@@ -70,7 +80,7 @@ double TimeSystem::period() const { return 2.0 * std::numbers::pi / frequency_; 
 Eigen::VectorXd TimeSystem::excitation(double time) const {
   const auto& rows = scene_.excitation.rows();
   Eigen::VectorXd force = rows.row(0).transpose();
-  for (int h = 1; h <= scene_.excitation.n_harmonics(); ++h) {
+  for (const int h : driven_) {
     const double angle = h * frequency_ * time;
     force.noalias() += std::sin(angle) * rows.row(2 * h - 1).transpose();
     force.noalias() += std::cos(angle) * rows.row(2 * h).transpose();

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -63,6 +64,7 @@ class TimeSystem {
  private:
   const Scene& scene_;
   double frequency_;
+  std::vector<int> driven_{};  ///< harmonics of the excitation
   Eigen::VectorXd stiffness_;
   Eigen::VectorXd damping_;
   double largest_frequency_ = 0.0;
