@@ -311,9 +311,9 @@ Changes changes_in_time(const SceneDescription& scene, const ReducedModel& model
   const bool all = again.response->frequency_begin_hz == scene.response->frequency_begin_hz &&
                    again.response->frequency_end_hz == scene.response->frequency_end_hz;
   const solver::ResponsePoint& top = *highest_peak(result.curve);
-  const solver::ResponseCurve curve =
-      integrated_elsewhere(other.model, again, load_with(other.model, model, load),
-                           all ? result.curve.points.front() : top, other.embedding);
+  const solver::ResponseCurve curve = integrated_elsewhere(
+      other.model, again, load_with(other.model, model, load),
+      all ? result.curve.points.front() : top, other.embedding, Closeness::bound);
   if (curve.diagnosis == solver::Diagnosis::interrupted) return {};
   const solver::ResponsePoint* with = highest_peak(curve);
   const char* goal = all ? peak_amplitude_goal : one_frequency_goal;

@@ -242,14 +242,15 @@ CurveResult checked_curve(const ReducedModel& model, const SceneDescription& sce
 
 solver::ResponseCurve integrated_elsewhere(const ReducedModel& model, const SceneDescription& scene,
                                            double load, const solver::ResponsePoint& point,
-                                           const Eigen::MatrixXd& embedding) {
+                                           const Eigen::MatrixXd& embedding, Closeness closely) {
   contact::Harmonics begin(point.q.n_harmonics(), model.frequency.size());
   begin.rows() = point.q.rows();
   if (embedding.size() > 0) begin.rows() = point.q.rows() * embedding.transpose();
   const Eigen::VectorXd factors = slowing_of(model, *scene.response);
   begin.rows() *= factors.cwiseInverse().asDiagonal();
   const auto stop = [] { return interrupt_requested() || cut_short(); };
-  return integrate_curve(integrated_scene(model, *scene.response, load), scene, {}, stop, &begin);
+  return integrate_curve(integrated_scene(model, *scene.response, load), scene, {}, stop, &begin,
+                         closely);
 }
 
 }  // namespace microslip::pipelines

@@ -5,6 +5,7 @@
 #include "pipelines/description/curve_request.hpp"
 #include "pipelines/model/reduced_model.hpp"
 #include "pipelines/response/run_results.hpp"
+#include "pipelines/response/time_response.hpp"
 #include "solver/continuation.hpp"
 
 namespace microslip::pipelines {
@@ -34,6 +35,7 @@ namespace microslip::pipelines {
 [[nodiscard]] solver::ResponseCurve integrated_elsewhere(const ReducedModel& model,
                                                          const SceneDescription& scene, double load,
                                                          const solver::ResponsePoint& point,
-                                                         const Eigen::MatrixXd& embedding);
+                                                         const Eigen::MatrixXd& embedding,
+                                                         Closeness closely = Closeness::result);
 
 }  // namespace microslip::pipelines

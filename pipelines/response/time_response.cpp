@@ -25,7 +25,8 @@ std::vector<double> swept_frequencies(const ResponseDescription& response) {
   return frequencies;
 }
 
-solver::TimeOptions time_options(const SceneDescription& scene, const std::function<bool()>& stop) {
+solver::TimeOptions time_options(const SceneDescription& scene, const std::function<bool()>& stop,
+                                 Closeness closely) {
   const ResponseDescription& response = *scene.response;
   solver::TimeOptions options;
   options.stop = stop;
@@ -33,6 +34,10 @@ solver::TimeOptions time_options(const SceneDescription& scene, const std::funct
   if (response.steps_per_period > 0) {
     options.method = solver::TimeMethod::rk4;
     options.steps_per_period = response.steps_per_period;
+  }
+  if (closely == Closeness::bound) {
+    options.periodicity_tolerance = 1e-5;
+    options.step_tolerance = 1e-8;
   }
   return options;
 }
@@ -77,8 +82,8 @@ void tell_stop(double frequency, solver::ResponseCurve& curve) {
 
 solver::ResponseCurve sweep(const solver::Scene& scene, const SceneDescription& description,
                             const solver::PointObserver& observe, const std::function<bool()>& stop,
-                            const contact::Harmonics* begin) {
-  const solver::TimeOptions options = time_options(description, stop);
+                            const contact::Harmonics* begin, Closeness closely) {
+  const solver::TimeOptions options = time_options(description, stop, closely);
   solver::ResponseCurve curve;
   Irregular irregular;
   solver::TimeState state;
@@ -134,10 +139,10 @@ solver::ResponseCurve integrate_curve(const solver::Scene& scene,
                                       const SceneDescription& description,
                                       const solver::PointObserver& observe,
                                       const std::function<bool()>& stop,
-                                      const contact::Harmonics* begin) {
+                                      const contact::Harmonics* begin, Closeness closely) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
-  solver::ResponseCurve curve = sweep(scene, description, observe, stop, begin);
+  solver::ResponseCurve curve = sweep(scene, description, observe, stop, begin, closely);
   curve.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   return curve;
 }

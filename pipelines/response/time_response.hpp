@@ -3,6 +3,7 @@
 /// its begin to its end, as a response curve like any other.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 
 #include "contact/harmonics.hpp"
@@ -19,16 +20,24 @@ namespace microslip::pipelines {
 /// @throws SceneError  they are too few; the message has the number needed, and at which frequency.
 void require_steps(const solver::Scene& scene, const ResponseDescription& response);
 
+/// How close to the steady state, and by which steps.
+enum class Closeness : std::uint8_t {
+  result,  ///< of motions that are told
+  bound,   ///< of what an effect changes: a hundredth of that is enough
+};
+
 /// Periodic motions only become points; the others are counted in the message (diagnosis
 /// `not-periodic`).
 /// @param scene  with `transient`.
 /// @param stop   asked after each period: true ends the curve with the points it has.
 /// @param begin  a motion at the first frequency, on which sliders follow for two periods first;
 ///               nullptr: from rest.
+/// @param closely  fixed steps are as given.
 [[nodiscard]] solver::ResponseCurve integrate_curve(const solver::Scene& scene,
                                                     const SceneDescription& description,
                                                     const solver::PointObserver& observe,
                                                     const std::function<bool()>& stop,
-                                                    const contact::Harmonics* begin = nullptr);
+                                                    const contact::Harmonics* begin = nullptr,
+                                                    Closeness closely = Closeness::result);
 
 }  // namespace microslip::pipelines
