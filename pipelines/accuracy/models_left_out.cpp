@@ -162,8 +162,11 @@ void add(const Names& names, const ReducedModel& model, const SceneDescription& 
 }  // namespace
 
 bool leaving_out_changes_modes(std::string_view name, const SceneDescription& scene) {
-  // Of a face that is all but plane shapes of tractions along its mean normal do.
-  if (name == "local_frames" && !frames_are_off(scene)) return false;
+  // Of a face that is all but plane shapes of tractions along its mean normal do; residual
+  // flexibility and what static loads press with are kept along the axes.
+  if (name == "local_frames" && !frames_are_off(scene)) {
+    return scene.settings.basis.residual == ResidualKind::stiffness || has_static_preload(scene);
+  }
   return std::ranges::any_of(described, [name](const Described& effect) {
     return effect.changes_modes && effect.name == name;
   });

@@ -10,6 +10,7 @@
 //
 // Static preload: the same face pressed by an interference against the direct solution (K + S) u =
 // S u_g with normal springs.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -348,6 +349,23 @@ TEST(CurvedContact, AxesLeftOutOfAFaceThatIsAllButPlaneHaveABound) {
   EXPECT_GT(std::abs(change.amplitude), 1e-3);
   EXPECT_NEAR(told.amplitude, change.amplitude, 1e-5);
   EXPECT_NEAR(told.frequency, change.frequency, 1e-6);
+}
+
+// What is kept along the axes of the face is solved for again.
+TEST(CurvedContact, AxesLeftOutAreHadWithResidualFlexibilityAndStaticPreload) {
+  const mesh::Mesh mesh = test::box_mesh(mesh::ElementType::hex20, sector(0.06, {1, 6, 2}));
+  const std::vector<std::vector<std::string>> settings{
+      {"modes.residual=stiffness", "modes.attachment_degree="},
+      {"contact.preload=static", "contact.gap=-1e-5", "contact.normal_stiffness=2e9"}};
+  for (std::vector<std::string> overrides : settings) {
+    overrides.emplace_back("contact.points=60");
+    const Study study = studied(mesh, scene_of(overrides));
+    EXPECT_TRUE(leaving_out_changes_modes("local_frames", study.scene));
+    const RicherModels others = models_left_out(study.model, study.scene, &study.structure);
+    const auto frames = std::ranges::find(others.models, "local_frames", &RicherModel::source);
+    ASSERT_NE(frames, others.models.end()) << others.note;
+    EXPECT_GT(frames->model.patches[0].cells.normals.rows(), 0);
+  }
 }
 
 TEST(CurvedContact, StaticPreloadPressesAlongTheNormalsOfEveryPlace) {
