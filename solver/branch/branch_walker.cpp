@@ -172,10 +172,13 @@ BranchWalker::Trial BranchWalker::behind(const Trial& trial) {
 /// Where slip begins or ends two parts of a branch may meet in a tip so sharp that a step goes from
 /// one to the other all but straight on. There the determinant has the other sign; so it has
 /// beyond a branch point, but not any more for who goes back from there past it.
-bool BranchWalker::beyond_a_tip(const Trial& trial) {
+/// @return empty: the way back bends too much to tell, and a shorter step would.
+std::optional<bool> BranchWalker::beyond_a_tip(const Trial& trial) {
   const Trial back = behind(trial);
-  return back.converged && back.orientation == orientation_ && back.cosine > cosine_limit &&
-         back.correction < correction_limit;
+  const bool straight =
+      back.converged && back.cosine > cosine_limit && back.correction < correction_limit;
+  if (!straight && step_ > turning_step) return std::nullopt;
+  return back.converged && back.orientation == orientation_;
 }
 
 /// Another branch may cross this one where it bends: who goes back from there is on the part that
@@ -234,6 +237,7 @@ void BranchWalker::remember(Remedy remedy) {
 
 bool BranchWalker::advance() {
   kink_.reset();
+  at_tip_ = false;
   bool failed = false;
   int modest = residual_ ? modest_attempts : 0;
   while (step_ >= shortest_step) {
@@ -245,10 +249,16 @@ bool BranchWalker::advance() {
     const double sharp = against ? tip_step : (back ? turning_step : kink_step);
     const bool kink = step_ < sharp && trial.correction < kink_correction;
     if (trial.converged && (kink || (smooth(trial) && !is_elsewhere_halfway(trial)))) {
-      trial.tip = against && beyond_a_tip(trial);
+      const std::optional<bool> tip = against ? beyond_a_tip(trial) : false;
+      if (!tip) {
+        step_ *= 0.5;
+        continue;
+      }
+      trial.tip = *tip;
       trial.bent = flips && crosses_bent(trial);
       if (failed) remember(Remedy::shorter_step);
       const double distance = step_;
+      at_tip_ = trial.tip;
       choose_step(trial);
       accept(trial.tip ? std::move(trial) : limited(std::move(trial), distance));
       return true;

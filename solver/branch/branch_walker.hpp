@@ -72,6 +72,9 @@ class BranchWalker {
   /// before(), which is as near to it as the shortest step, with the tangent of the part ahead.
   /// From its own, between() finds the part that was walked.
   [[nodiscard]] const std::optional<WalkerPoint>& kink() const { return kink_; }
+  /// Whether the last step went from one part of the branch to another that comes back beside it:
+  /// planes across its chord meet both, and the tip may lie beyond its ends.
+  [[nodiscard]] bool is_at_tip() const { return at_tip_; }
   /// Share of a step below which places on it differ by the errors of the force alone.
   [[nodiscard]] double resolution() const;
   /// Of a force that is sampled, whose Jacobian is dear.
@@ -119,7 +122,7 @@ class BranchWalker {
   [[nodiscard]] double swerve(const Trial& trial) const;
   [[nodiscard]] bool is_elsewhere_halfway(const Trial& trial);
   [[nodiscard]] Trial behind(const Trial& trial);
-  [[nodiscard]] bool beyond_a_tip(const Trial& trial);
+  [[nodiscard]] std::optional<bool> beyond_a_tip(const Trial& trial);
   [[nodiscard]] bool crosses_bent(const Trial& trial);
   void accept(Trial trial);
   void choose_step(const Trial& trial);
@@ -150,6 +153,7 @@ class BranchWalker {
   double orientation_ = 0.0;  ///< 0: not known yet
   double before_orientation_ = 0.0;
   std::optional<WalkerPoint> kink_;  ///< of the last step
+  bool at_tip_ = false;              ///< the same
   StepStates states_;
   std::vector<StepRemedy> remedies_;
   long evaluations_ = 0;

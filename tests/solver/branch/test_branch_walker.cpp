@@ -34,13 +34,15 @@ double parameter_of(const BranchWalker& walker) { return walker.now().solution.p
 /// |x| = −εp + c p², p ≤ 0: two parts that meet at the origin under an angle of 2ε.
 struct Tip {
   double half_angle = 0.0;
-  double bend = 0.0;
+  double bend = 0.0;         ///< c where x ≥ 0
+  double bend_beyond = 0.0;  ///< c where x < 0
 
   [[nodiscard]] double width(double p) const { return -half_angle * p + bend * p * p; }
   [[nodiscard]] ParametricSystem system() const {
     return [*this](const Eigen::VectorXd& x, double p) {
-      return evaluation(std::abs(x[0]) - (p < 0.0 ? width(p) : -half_angle * p),
-                        x[0] < 0.0 ? -1.0 : 1.0, half_angle - (p < 0.0 ? 2.0 * bend * p : 0.0));
+      const double bent = (x[0] < 0.0 ? bend_beyond : bend) * std::min(p, 0.0);
+      return evaluation(std::abs(x[0]) + half_angle * p - bent * p, x[0] < 0.0 ? -1.0 : 1.0,
+                        half_angle - 2.0 * bent);
     };
   }
 };
@@ -55,7 +57,7 @@ TEST(BranchWalker, ASharpTipIsPassedToTheOtherPart) {
     for (const double bend : {0.0, 1.0, 10.0, 100.0}) {
       // Where the steps end before the tip is chance.
       for (const double share : {1.0, 1.03, 1.07, 1.11, 1.17}) {
-        const Tip tip{half_angle, bend};
+        const Tip tip{half_angle, bend, bend};
         const double from = share * start;
         BranchWalker walker = walker_from(tip.system(), tip.width(from), from);
         int n_steps = 0;
@@ -67,6 +69,27 @@ TEST(BranchWalker, ASharpTipIsPassedToTheOtherPart) {
     }
   }
   EXPECT_EQ(n_tips, 120);
+}
+
+// Row 83. Hard: the part beyond the tip bends within the three steps that are looked back.
+// Met in: rough blocks of four cells, where slip in a plane begins.
+// Right: as above; it is not taken for a branch point, from which the walk would come back.
+TEST(BranchWalker, ATipWhoseOtherPartBendsAtOnceIsNoBranchPoint) {
+  for (const double half_angle : {3e-3, 1e-2, 3e-2, 0.1}) {
+    for (const double bend : {100.0, 300.0, 1e3}) {
+      for (const double times : {10.0, 30.0, 100.0, 1e3}) {
+        for (const double share : {1.0, 1.03, 1.07, 1.11, 1.17}) {
+          const Tip tip{half_angle, bend, times * bend};
+          const double from = -1e-3 * share;
+          BranchWalker walker = walker_from(tip.system(), tip.width(from), from);
+          int n_steps = 0;
+          while (parameter_of(walker) >= -1.2e-3 && n_steps < 500 && walker.advance()) ++n_steps;
+          EXPECT_LT(parameter_of(walker), -1.2e-3) << half_angle << ' ' << bend << ' ' << times;
+          EXPECT_LT(x_of(walker), 0.0) << half_angle << ' ' << bend << ' ' << times;
+        }
+      }
+    }
+  }
 }
 
 TEST(BranchWalker, ABranchPointIsNoTip) {
