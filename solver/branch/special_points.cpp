@@ -107,7 +107,12 @@ class Segment {
       if (turns && wanted(begin)) found_.push_back({0.0, begin.at.point.solution, kind_, true});
       begin = std::move(ahead);
     }
-    search(begin, node({1.0, walker_.now()}), 0);
+    Node end = node({1.0, walker_.now()});
+    if (walker_.is_at_tip()) {
+      take_tip(begin, end);
+    } else {
+      search(begin, end, 0);
+    }
     return std::move(found_);
   }
 
@@ -146,6 +151,15 @@ class Segment {
     if (!middle) return;
     take(a, *middle);
     take(*middle, b);
+  }
+
+  /// A peak or fold at the tip itself: of the ends of the step, both within 1e-5 of it, the one
+  /// that lies farther out.
+  void take_tip(const Node& a, const Node& b) {
+    const bool rises = a.value.slope > 0.0;
+    if (rises == (b.value.slope > 0.0) || !wanted(a)) return;
+    const Node& farther = rises == (b.value.value > a.value.value) ? b : a;
+    found_.push_back({0.0, farther.at.point.solution, kind_, true});
   }
 
   /// Between two places whose slopes differ in sign.

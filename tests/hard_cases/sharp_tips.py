@@ -16,7 +16,8 @@ that parts: a step from before a kink to the part beyond it, which comes back), 
 501.30 (hyperbolic law: a step over three pairs of folds to a part of the branch beside the one it came by),
 a scene of two points that slide in a plane, whose branch turns in a hairpin of 3e-6 Hz from which walks come back,
 and share/scenes/block_rough.toml at 80 N, with so few cells that events are located (pairs of folds 2e-5 and 1e-8 Hz apart, into
-which short steps lead and long ones do not).
+which short steps lead and long ones do not; of four cells tips at which slip in a plane begins, the other part of which bends at
+once, so that they looked like branch points).
 Right: complete, no fold is passed twice, from end to end they are even in number, and a part of the range has none more.
 
 usage: sharp_tips.py MICROSLIP WORK_FOLDER
@@ -142,8 +143,13 @@ def main(program, folder):
     assert beyond, curve["peaks"]
     assert "fixed-frequency" in {step["remedy"] for step in curve["remedies"]}, curve["remedies"]
 
-    code, curve = run_of(program, BLOCK, os.path.join(folder, "block"), "contact.cells=[4, 2]", "response.preload=[80]",
-                         "response.maps=[]", 'accuracy.error_budget="off"', "effects.coexistence=off", seconds=200)
+    block = ("response.preload=[80]", "response.maps=[]", 'accuracy.error_budget="off"', "effects.coexistence=off")
+    code, curve = run_of(program, BLOCK, os.path.join(folder, "four"), "contact.cells=[2, 2]", *block, seconds=200)
+    print(f"rough block of four cells at 80 N: {curve['points']} points, folds at {curve['folds_Hz']}, {curve['diagnosis'] or 'complete'}")
+    assert code == 0 and curve["complete"], curve["message"]
+    assert len(curve["folds_Hz"]) % 2 == 0 and not passed_twice(curve["folds_Hz"]), curve["folds_Hz"]
+
+    code, curve = run_of(program, BLOCK, os.path.join(folder, "block"), "contact.cells=[4, 2]", *block, seconds=200)
     remedies = sorted({step["remedy"] for step in curve["remedies"]})
     print(f"rough block of eight cells at 80 N: {curve['points']} points, {curve['diagnosis'] or 'complete'}, {remedies}")
     assert code == 0 and curve["complete"], curve["message"]
