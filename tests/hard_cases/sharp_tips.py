@@ -14,7 +14,7 @@ point in a bend), 29.163 (hyperbolic law: a stall on the way against the range; 
 that parts: a step from before a kink to the part beyond it, which comes back), 113.225 (exponential law: four events at once),
 127.215 (friction in a plane: a point that sticks with a load of the mean begins to slip, two folds and one on the part walked before),
 501.30 (hyperbolic law: a step over three pairs of folds to a part of the branch beside the one it came by),
-a scene of two points that slide in a plane, whose branch turns in a hairpin of 3e-6 Hz from which walks come back,
+a scene of two points that slide in a plane, whose branch turns in a hairpin of 3e-6 Hz from which walks came back,
 and share/scenes/block_rough.toml at 80 N, with so few cells that events are located (pairs of folds 2e-5 and 1e-8 Hz apart, into
 which short steps lead and long ones do not: tips at which slip in a plane begins, the other part of which bends at once, so that they
 looked like branch points, of eight cells and of four).
@@ -141,7 +141,7 @@ def main(program, folder):
     assert code == 0 and curve["complete"], curve["message"]
     beyond = [peak for peak in curve["peaks"] if 32.0 < peak["frequency_Hz"] < 34.0]
     assert beyond, curve["peaks"]
-    assert "fixed-frequency" in {step["remedy"] for step in curve["remedies"]}, curve["remedies"]
+    assert len(curve["folds_Hz"]) % 2 == 0 and not passed_twice(curve["folds_Hz"]), curve["folds_Hz"]
 
     block = ("response.preload=[80]", "response.maps=[]", 'accuracy.error_budget="off"', "effects.coexistence=off")
     code, curve = run_of(program, BLOCK, os.path.join(folder, "four"), "contact.cells=[2, 2]", *block, seconds=200)
