@@ -15,6 +15,7 @@
 #include "pipelines/effects/effect_choice.hpp"
 #include "pipelines/effects/motion_along_r.hpp"
 #include "pipelines/model/contact_coordinates.hpp"
+#include "pipelines/model/contact_frame.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/scene_error.hpp"
 
@@ -53,8 +54,8 @@ bool frames_are_off(const SceneDescription& scene) {
 
 /// On a face that is not plane, switched off where it counts or left out because it hardly does.
 bool asks_for_frames(const ReducedModel& model, const SceneDescription& scene) {
-  constexpr double plane = 1e-9;  // what a mesher rounds
-  const double limit = frames_are_off(scene) ? effect_row("local_frames").threshold : plane;
+  const double limit =
+      frames_are_off(scene) ? effect_row("local_frames").threshold : plane_to_rounding;
   return std::ranges::any_of(model.patches, [limit](const contact::Patch& patch) {
     return patch.cells.normals.rows() == 0 && patch.off_plane > limit;
   });

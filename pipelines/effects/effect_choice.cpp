@@ -329,8 +329,7 @@ EffectDecision local_frames(const EffectFacts& facts) {
   const double off =
       faces.empty() ? 0.0 : std::ranges::max(faces, {}, &FaceShape::off_plane).off_plane;
   const bool local = std::ranges::any_of(faces, &FaceShape::local_frames);
-  constexpr double flat = 1e-9;  // what a mesher rounds
-  if (!local && setting == "auto" && off < flat) {
+  if (!local && setting == "auto" && off < plane_to_rounding) {
     EffectDecision plane = cannot("the face is plane");
     plane.indicator = off;
     return plane;

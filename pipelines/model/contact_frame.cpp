@@ -15,7 +15,6 @@ namespace {
 constexpr double least_sine_in_a_plane = 1e-6;
 // Nearer to the normal p turns round within a cell, and there is no slip direction to speak of.
 constexpr double least_sine_at_a_place = 0.1;
-constexpr double rounding = 1e-9;  // of the size: a plane face, whose frame is that of every place
 
 mesh::SurfacePlane plane_of(const mesh::Mesh& mesh, const ContactDescription& contact) {
   return mesh::fit_plane(mesh.nodes(), mesh.surface(contact.surface));
@@ -24,7 +23,7 @@ mesh::SurfacePlane plane_of(const mesh::Mesh& mesh, const ContactDescription& co
 double off_plane(const mesh::SurfacePlane& plane) { return plane.flatness / plane.diameter; }
 
 bool has_local_frames(const mesh::SurfacePlane& plane, const ContactDescription& contact) {
-  if (contact.local_frames) return *contact.local_frames && off_plane(plane) > rounding;
+  if (contact.local_frames) return *contact.local_frames && off_plane(plane) > plane_to_rounding;
   return off_plane(plane) > effect_row("local_frames").threshold;
 }
 

@@ -11,6 +11,9 @@
 
 namespace microslip::pipelines {
 
+/// off_plane() of a plane face, whose frame is that of every place: what a mesher rounds [-].
+inline constexpr double plane_to_rounding = 1e-9;
+
 /// Largest distance of a node from the mean plane of the face, over its size [-].
 [[nodiscard]] double off_plane(const mesh::Mesh& mesh, const ContactDescription& contact);
 

@@ -37,7 +37,7 @@ solver::TimeOptions time_options(const SceneDescription& scene, const std::funct
   }
   if (closely == Closeness::bound) {
     options.periodicity_tolerance = 1e-5;
-    options.step_tolerance = 1e-8;
+    options.step_tolerance = 1e-8;  // a period has 64 and more
   }
   return options;
 }

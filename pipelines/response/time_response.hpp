@@ -23,7 +23,7 @@ void require_steps(const solver::Scene& scene, const ResponseDescription& respon
 /// How close to the steady state, and by which steps.
 enum class Closeness : std::uint8_t {
   result,  ///< of motions that are told
-  bound,   ///< of what an effect changes: a hundredth of that is enough
+  bound,   ///< of what an effect changes, which counts from some 1e-3 on: to 1e-5 of the motion
 };
 
 /// Periodic motions only become points; the others are counted in the message (diagnosis
