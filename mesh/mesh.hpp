@@ -65,7 +65,10 @@ class Mesh {
   [[nodiscard]] bool has_faces(const std::string& name) const;
   [[nodiscard]] std::vector<std::string> node_set_names() const;
   [[nodiscard]] const NodeSets& node_sets() const { return node_sets_; }
-  [[nodiscard]] double volume() const { return volume_; }         ///< [m³]
+  [[nodiscard]] double volume() const { return volume_; }  ///< [m³]
+  /// Of the element about a place of the body, the geometric mean over all places [m³]: small
+  /// elements at edges, of which there are many, weigh as little as what they fill.
+  [[nodiscard]] double typical_element_volume() const { return typical_element_volume_; }
   [[nodiscard]] Eigen::Vector3d lower() const { return lower_; }  ///< bounding box [m]
   [[nodiscard]] Eigen::Vector3d upper() const { return upper_; }
   [[nodiscard]] double longest_side() const { return (upper_ - lower_).maxCoeff(); }  ///< of it
@@ -80,6 +83,7 @@ class Mesh {
   Eigen::Index n_repeated_elements_ = 0;
   std::vector<std::string> remarks_;
   double volume_ = 0.0;
+  double typical_element_volume_ = 0.0;
   Eigen::Vector3d lower_;
   Eigen::Vector3d upper_;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "mesh/checks/mesh_overlap.hpp"
@@ -207,14 +208,18 @@ Mesh::Mesh(Eigen::MatrixX3d nodes, std::vector<ElementBlock> elements,
     Surface& surface = faces_of_sets_[name] = builder.build(name, faces);
     surface.area = sample_surface(nodes_, surface, 1).weights.sum();
   }
+  double logarithms = 0.0;
   for (const ElementBlock& block : elements_) {
     Eigen::MatrixX3d own(block.connectivity.cols(), 3);
     for (Eigen::Index e = 0; e < block.connectivity.rows(); ++e) {
       for (Eigen::Index a = 0; a < own.rows(); ++a)
         own.row(a) = nodes_.row(block.connectivity(e, a));
-      volume_ += element_volume(block.type, own);
+      const double volume = element_volume(block.type, own);
+      volume_ += volume;
+      logarithms += volume * std::log(volume);
     }
   }
+  typical_element_volume_ = std::exp(logarithms / volume_);
   lower_ = nodes_.colwise().minCoeff();
   upper_ = nodes_.colwise().maxCoeff();
 }
