@@ -26,6 +26,9 @@ namespace {
 constexpr const char* friction = "friction_coefficient";  // of the bracket
 
 solver::OptimumOptions optimum_options(const SceneDescription& scene) {
+  // Shares of what is asked for: a valley is level, and values over some per cent are as good.
+  constexpr double of_value = 0.5;
+  constexpr double of_amplitude = 0.25;
   solver::OptimumOptions options;
   if (scene.response->optimum->range) {
     options.lower = (*scene.response->optimum->range)[0];
@@ -45,8 +48,9 @@ solver::OptimumOptions optimum_options(const SceneDescription& scene) {
   }
   if (!(options.lower > 0.0)) options.scale = solver::ParameterScale::linear;
   if (has_short_search(scene)) {
-    options.relative_tolerance = 5e-3;
-    options.amplitude_tolerance = 3e-3;
+    const double asked = scene.accuracy.tolerance;
+    options.relative_tolerance = std::clamp(of_value * asked, 5e-3, 2e-2);
+    options.amplitude_tolerance = std::clamp(of_amplitude * asked, 3e-3, 1e-2);
   }
   return options;
 }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -153,16 +154,21 @@ class CorrectedPeakSearch {
   }
 
   /// Of values that are as low as the lowest, within the tolerance, the one whose neighbours are
-  /// lowest: at the foot of a steep flank a little changes much.
+  /// lowest: at the foot of a steep flank a little changes much. One whose whole curve is known
+  /// already, where that is as good as well.
   [[nodiscard]] double robust_value() const {
-    const double limit =
-        (1.0 + options_.amplitude_tolerance) * values().at(lowest_value()).highest.amplitude;
+    const double same = 1.0 + options_.amplitude_tolerance;
+    const double limit = same * values().at(lowest_value()).highest.amplitude;
     double best = lowest_value();
+    std::optional<double> proved;
     for (const auto& [at, value] : values()) {
-      const bool is_low = value.highest.amplitude <= limit;
-      if (is_low && higher_neighbour(at) < higher_neighbour(best)) best = at;
+      if (value.highest.amplitude > limit) continue;
+      if (higher_neighbour(at) < higher_neighbour(best)) best = at;
+      const bool lower = !proved || higher_neighbour(at) < higher_neighbour(*proved);
+      if (value.top && lower) proved = at;
     }
-    return best;
+    const bool is_enough = proved && higher_neighbour(*proved) <= same * higher_neighbour(best);
+    return is_enough ? *proved : best;
   }
 
   /// Its amplitude; infinite where one is missing.

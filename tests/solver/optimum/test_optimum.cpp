@@ -457,6 +457,26 @@ TEST(MinimisePeak, OfPeaksCorrectedFromFewHarmonicsIsThatOfMany) {
   EXPECT_TRUE(has_curve);
 }
 
+// A best value to some per cent of a level valley needs fewer values, and no second whole curve
+// where one of them has its own already and is as good.
+TEST(MinimisePeak, EndsSoonerWhereLessIsAskedFor) {
+  const SceneFamily family = of_three_masses;
+  const OptimumOptions closely = coarse(preloads(20.0, 400.0));
+  OptimumOptions roughly = closely;
+  roughly.relative_tolerance = 2e-2;
+  roughly.amplitude_tolerance = 1e-2;
+  const Optimum reference = minimise_peak(family, nine_harmonics(), closely);
+  const Optimum optimum = minimise_peak(family, nine_harmonics(), roughly);
+  std::printf("%.4g, %.4g m in %ld evaluations; closely %.4g, %.4g m in %ld\n",
+              optimum.best.parameter, optimum.best.amplitude, optimum.contact_evaluations,
+              reference.best.parameter, reference.best.amplitude, reference.contact_evaluations);
+  ASSERT_TRUE(optimum.found) << optimum.message;
+  EXPECT_TRUE(optimum.best.whole_curve);
+  EXPECT_LE(optimum.n_curves, reference.n_curves);
+  EXPECT_LT(optimum.contact_evaluations, 0.9 * static_cast<double>(reference.contact_evaluations));
+  EXPECT_NEAR(optimum.best.amplitude, reference.best.amplitude, 1e-2 * reference.best.amplitude);
+}
+
 TEST(MinimisePeak, StopsWithWhatThereIs) {
   ContinuationOptions options = range();
   int asked = 0;
