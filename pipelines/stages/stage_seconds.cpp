@@ -92,8 +92,8 @@ double accuracy_seconds(const ReducedModel& model, const SceneDescription& scene
 
 double optimum_seconds(const ReducedModel& model, const SceneDescription& scene,
                        const std::vector<CurveResult>& curves, bool bracket) {
-  // Of the default study with nine harmonics and with those that 2 % need: 1.4 and 1.6.
-  constexpr double times_the_curves = 1.5;
+  // Of the default study with nine harmonics and with those that 2 % need: 1.4 and 0.83.
+  constexpr double times_the_curves = 1.1;
   const ResponseSeconds seconds = seconds_of(model, scene);
   const double at_least =
       has_short_search(scene) ? times_the_curves * seconds_spent_on(curves) : 0.0;
