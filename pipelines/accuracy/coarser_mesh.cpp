@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "pipelines/accuracy/given_mesh.hpp"
 #include "pipelines/structure/extrapolated_modes.hpp"
 #include "pipelines/structure/larger_elements.hpp"
 #include "pipelines/system/scene_error.hpp"
@@ -16,6 +17,7 @@ namespace microslip::pipelines {
 namespace {
 
 constexpr double least_refinement = 1.1;  // nothing is told by two meshes that are as good as one
+constexpr double sure_refinement = 1.4;   // of less they may tell a half
 
 /// Modes of two meshes have the same shapes but for their signs:
 /// those that the contact and the output feel.
@@ -64,6 +66,38 @@ std::optional<RicherModel> coarser_model(const ReducedModel& model, const SceneD
   return coarser;
 }
 
+/// Of the first frequency.
+double told_by(const std::optional<RicherModel>& other, const ReducedModel& model) {
+  if (!other) return 0.0;
+  return std::abs(other->share * (other->model.frequency[0] / model.frequency[0] - 1.0));
+}
+
+std::optional<RicherModel> of_modes_as_they_are(const ReducedModel& model,
+                                                const SceneDescription& scene,
+                                                const SolvedStructure& structure,
+                                                std::string& note) {
+  const SolvedStructure& twice =
+      on_larger_elements(scene, structure, 2.0, model.frequency.size() - model.n_attachment);
+  double ratio = ratio_of_edges;  // of a mesh file whose elements are cut once
+  if (largest_factor(scene) >= 4.0) {
+    const SolvedStructure& four_times =
+        on_larger_elements(scene, structure, 4.0, scene.settings.basis.n_modes);
+    ratio = observed_ratio(model.frequency[0], twice.modes.basis.frequency[0],
+                           four_times.modes.basis.frequency[0]);
+  }
+  const double refinement = refinement_between(structure.mesh, twice.mesh, scene);
+  std::optional<RicherModel> coarser;
+  std::optional<RicherModel> without;
+  if (refinement >= least_refinement) {
+    coarser = coarser_model(model, scene, twice, ratio_over(refinement, ratio));
+  }
+  if (refinement < sure_refinement) without = without_mesh_excess(model, scene, structure);
+  if (refinement < least_refinement && !without) {
+    note = "the error of the mesh is not known: elements of twice the size give the same mesh";
+  }
+  return !coarser || told_by(without, model) > told_by(coarser, model) ? without : coarser;
+}
+
 }  // namespace
 
 std::optional<RicherModel> coarser_mesh(const ReducedModel& model, const SceneDescription& scene,
@@ -74,21 +108,7 @@ std::optional<RicherModel> coarser_mesh(const ReducedModel& model, const SceneDe
       return coarser_model(model, scene, structure.coarser->twice,
                            extrapolated_ratio(structure, scene));
     }
-    const SolvedStructure& twice =
-        on_larger_elements(scene, structure, 2.0, model.frequency.size() - model.n_attachment);
-    double ratio = ratio_of_edges;  // of a mesh file whose elements are cut once
-    if (largest_factor(scene) >= 4.0) {
-      const SolvedStructure& four_times =
-          on_larger_elements(scene, structure, 4.0, scene.settings.basis.n_modes);
-      ratio = observed_ratio(model.frequency[0], twice.modes.basis.frequency[0],
-                             four_times.modes.basis.frequency[0]);
-    }
-    const double refinement = refinement_between(structure.mesh, twice.mesh, scene);
-    if (refinement < least_refinement) {
-      note = "the error of the mesh is not known: elements of twice the size give the same mesh";
-      return std::nullopt;
-    }
-    return coarser_model(model, scene, twice, ratio_over(refinement, ratio));
+    return of_modes_as_they_are(model, scene, structure, note);
   } catch (const InterruptedError&) {
     throw;
   } catch (const std::exception& error) {  // an estimate that fails does not cost the run

@@ -1,6 +1,6 @@
 /// @file
-/// The error of a mesh that is given, which has no coarser one beside it: what its elements do to
-/// natural frequencies is told by the jumps of stress between them (structure/mesh_excess.hpp).
+/// The error of a mesh that has no coarser one beside it: what its elements do to natural
+/// frequencies is told by the jumps of stress between them (structure/mesh_excess.hpp).
 #pragma once
 
 #include <optional>
@@ -13,8 +13,8 @@ namespace microslip::pipelines {
 /// nothing is told of, those above the range and the attachment shapes, err as the worst that is.
 /// Shapes stay, whose error makes up for some of what that does to amplitudes. What is told of
 /// frequencies is 0.5 to 2 times their error (fem/stress_jumps.hpp).
-/// @return empty: no mesh from elsewhere, or elements of first order, which lock: of them the jumps
-///         tell a part.
+/// @return empty: modes of another code, a body that rotates, or elements of first order, which
+///         lock: of them the jumps tell a part.
 [[nodiscard]] std::optional<RicherModel> without_mesh_excess(const ReducedModel& model,
                                                              const SceneDescription& scene,
                                                              const SolvedStructure& structure);

@@ -50,6 +50,7 @@ SimulatedScene telling_model_of(const SceneDescription& scene, const SolvedStruc
 /// Of a large mesh it takes seconds.
 MeshExcess telling_mesh_excess(const SolvedStructure& structure, const SceneDescription& scene,
                                Progress& progress) {
+  if (!has_elements_of_file(scene)) return {};
   const Progress::Part part = progress.part("jumps of stress between elements");
   return mesh_excess(frequency_excess(structure, scene), scene);
 }

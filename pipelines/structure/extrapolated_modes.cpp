@@ -28,6 +28,7 @@ using Interpolation = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 // Of coarse meshes other parts of the error show, which fall faster; the edges have the last word.
 constexpr double without_edges = 5.66;  // 2^2.5
 constexpr double highest_ratio = 16.0;  // of quadratic elements; what shows more is an accident
+constexpr double small_step = 0.03;     // of a frequency: elements larger than parts of the body
 constexpr double turn = 2.0 * std::numbers::pi;
 
 /// Shapes at the nodes of another mesh. @param shapes  3 n_nodes × n, x y z per node.
@@ -92,11 +93,10 @@ struct ThreeFrequencies {
 
 /// Steps of one sign, each smaller than the one before, and small already.
 bool converges(const ThreeFrequencies& of) {
-  constexpr double small = 0.03;  // of the frequency: elements larger than parts of the body
   const double step = of.coarse - of.fine;
   const double before = of.coarsest - of.coarse;
   return step * before > 0.0 && std::abs(step) < std::abs(before) &&
-         std::abs(step) < small * of.fine;
+         std::abs(step) < small_step * of.fine;
 }
 
 using Ratios = std::vector<std::optional<double>>;  // 2^p of columns; empty: they stay
@@ -265,7 +265,8 @@ bool is_extrapolated(const SceneDescription& scene) {
 
 double observed_ratio(double fine, double coarse, double coarsest) {
   const double ratio = (coarsest - coarse) / (coarse - fine);
-  const bool is_smooth = ratio > without_edges && ratio <= highest_ratio;
+  const bool is_small = std::abs(coarse - fine) < small_step * fine;
+  const bool is_smooth = is_small && ratio > without_edges && ratio <= highest_ratio;
   return is_smooth ? ratio : ratio_of_edges;
 }
 

@@ -46,8 +46,9 @@ struct CoarserMeshes {
 inline constexpr double ratio_of_edges = 2.127;
 
 /// 2^p = (ω_4h − ω_2h) / (ω_2h − ω_h) of three meshes, between 2^2.5 and 16 (smooth fields,
-/// quadratic elements). Else it is that of re-entrant edges, h^1.09: meshes show the rate of the
-/// coarsest then, or an accident, which is not that of what is left on the finest.
+/// quadratic elements), of steps below 3 %. Else it is that of re-entrant edges, h^1.09: meshes
+/// show the rate of the coarsest then, or an accident, which is not that of what is left on the
+/// finest.
 [[nodiscard]] double observed_ratio(double fine, double coarse, double coarsest);
 
 /// How many times smaller elements are than those of a mesh that was to have twice their size: 2,

@@ -22,7 +22,7 @@ constexpr std::ptrdiff_t most_told = 4;  // modes that are told: each takes as l
 
 bool is_told(const SceneDescription& scene, const StructureModes& modes) {
   const auto* file = std::get_if<MeshFileModel>(&scene.model);
-  if (file == nullptr || file->modes || file->matrices || file->refinement > 0) return false;
+  if (file != nullptr && (file->modes || file->matrices)) return false;
   return !scene.rotation && modes.basis.n_free() > modes.basis.n_rigid_body;
 }
 
@@ -46,6 +46,11 @@ std::vector<Eigen::Index> modes_of_range(const SceneDescription& scene,
 }
 
 }  // namespace
+
+bool has_elements_of_file(const SceneDescription& scene) {
+  const auto* file = std::get_if<MeshFileModel>(&scene.model);
+  return file != nullptr && file->refinement == 0;
+}
 
 FrequencyExcess frequency_excess(const mesh::Mesh& mesh, const StructureModes& modes,
                                  const SceneDescription& scene) {

@@ -1,6 +1,6 @@
 /// @file
-/// What the elements of a mesh that is given do to its frequencies: there is no coarser mesh that
-/// could tell it.
+/// What the elements of a mesh do to its frequencies, where there is no coarser mesh that could
+/// tell it: of a file, or of elements that are larger than the body is thick.
 #pragma once
 
 #include <string>
@@ -23,11 +23,15 @@ struct FrequencyExcess {
 };
 
 /// Of the modes up to the end of the frequency range, at least one and at most the last four, or
-/// the first four without a range. Not told of meshes made here, of modes and matrices of another
-/// code, nor of a body that rotates, whose stiffness is not that of its elements alone.
+/// the first four without a range. Not told of modes and matrices of another code, nor of a body
+/// that rotates, whose stiffness is not that of its elements alone.
 /// @param modes  of the mesh as it is.
 [[nodiscard]] FrequencyExcess frequency_excess(const mesh::Mesh& mesh, const StructureModes& modes,
                                                const SceneDescription& scene);
+
+/// Whether elements are those of a file, as it has them: of others the error budget tells what they
+/// err by.
+[[nodiscard]] bool has_elements_of_file(const SceneDescription& scene);
 
 struct MeshExcess {
   std::string
@@ -35,7 +39,7 @@ struct MeshExcess {
   std::string warning;  ///< where it is more than 2 %, and no accuracy is asked for that cuts them
 };
 
-/// What is said of it.
+/// What is said of it, of elements of a file.
 [[nodiscard]] MeshExcess mesh_excess(const FrequencyExcess& excess, const SceneDescription& scene);
 
 }  // namespace microslip::pipelines

@@ -69,10 +69,40 @@ TEST(CoarserMesh, TellsTheErrorWhereElementsAreTooLargeToGrow) {
   EXPECT_GT(told, 1.5 * right);
 }
 
-// 18 and 36 mm: the surfaces of the blade alone say where nodes are.
-TEST(CoarserMesh, IsNotKnownWhereItIsTheSame) {
-  SceneDescription scene = coarse_blade();
-  std::get<BladeModel>(scene.model).sizes.element_size = 0.018;
+/// Told of the first frequency over what is right.
+double told_over_right(const SceneDescription& scene, double right_hz) {
+  const SolvedStructure structure = structure_of(scene);
+  std::vector<std::string> warnings;
+  const ReducedModel model = model_of(scene, &structure, warnings);
+  std::string note;
+  const auto other = coarser_mesh(model, scene, structure, note);
+  if (!other) return 0.0;
+  return other->share * (other->model.frequency[0] / model.frequency[0] - 1.0) /
+         (2.0 * std::numbers::pi * right_hz / model.frequency[0] - 1.0);
+}
+
+// The surfaces of the blade alone say where nodes are: from 15 to 30 mm the mesh is the same, from
+// 20 to 40 mm of the STEP file 0.2 % were told of 4.8 %.
+TEST(CoarserMesh, OfTheSameSizesTheJumpsOfStressTellTheError) {
+  for (const double size : {0.015, 0.018, 0.02, 0.03}) {
+    SceneDescription scene = coarse_blade();
+    std::get<BladeModel>(scene.model).sizes.element_size = size;
+    const double told = told_over_right(scene, 293.36);
+    EXPECT_GT(told, 0.5) << size;
+    EXPECT_LT(told, 2.0) << size;
+  }
+  const SceneDescription step =
+      read_scene(MICROSLIP_SCENES "/step_blade.toml", {"model.element_size=\"20 mm\""});
+  EXPECT_GT(told_over_right(step, 292.0), 0.5);
+  EXPECT_LT(told_over_right(step, 292.0), 2.0);
+}
+
+// A body that rotates has no stiffness of its elements alone.
+TEST(CoarserMesh, IsNotKnownOfARotatingBodyWhereItIsTheSame) {
+  SceneDescription scene = read_scene(
+      MICROSLIP_SCENES "/blade_to_ground.toml",
+      {"model.element_size=\"18 mm\"", "response.harmonics=1", "static.speed=\"3000 rpm\"",
+       "static.axis={origin=[0, -0.3, 0], direction=[1, 0, 0]}"});
   const SolvedStructure structure = structure_of(scene);
   std::vector<std::string> warnings;
   const ReducedModel model = model_of(scene, &structure, warnings);
