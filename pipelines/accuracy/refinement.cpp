@@ -464,6 +464,21 @@ std::map<std::string, Moves> all_moves(const SceneDescription& scene,
   return result;
 }
 
+/// Where a bar is far above the tolerance what is small beside that waits: the curves that take
+/// several times as long for it would do so in every round to come.
+std::map<std::string, Moves> without_small_ones(std::map<std::string, Moves> moves,
+                                                const std::vector<Errors>& errors,
+                                                double tolerance) {
+  constexpr double far = 4.0;  // times the tolerance
+  constexpr double small = 0.25;
+  const auto is_far = [&](const Errors& one) { return bar_of(one) > far * tolerance; };
+  if (!std::ranges::any_of(errors, is_far)) return moves;
+  for (auto& [source, own] : moves) {
+    if (largest_of(errors, source) <= small * tolerance) own.resize(1);
+  }
+  return moves;
+}
+
 /// What keeps this program from having less of an error, where a user can do something about it.
 std::string obstacle_to(const std::string& source, const SceneDescription& scene,
                         const SpentSeconds& spent) {
@@ -531,7 +546,8 @@ std::optional<Refinement> refinement(const SceneDescription& scene,
   const std::vector<Errors> errors = errors_of(budgets, scene.accuracy.goals, mesh);
   const std::map<std::string, Moves> moves = all_moves(scene, errors, tolerance, spent);
   left = stuck_sources(moves, scene, errors, tolerance, spent);
-  const Plans plans(errors, moves, spent, tolerance);
+  const std::map<std::string, Moves> of_round = without_small_ones(moves, errors, tolerance);
+  const Plans plans(errors, of_round, spent, tolerance);
   const Plan& plan = plans.best();
   Refinement result{.scene = scene,
                     .text = {},

@@ -300,6 +300,19 @@ TEST(Refinement, LargeErrorsAreNotRefinedToTheEndAtOnce) {
   EXPECT_FALSE(alone->only_harmonics) << alone->text;
 }
 
+// More contact points for 0.4 % would make the curves of every round to come four times as dear.
+TEST(Refinement, WhatIsSmallWaitsWhereOthersAreFarOff) {
+  std::string left;
+  const auto moves_cells = [&](double mesh) {
+    const auto step = refinement(blade(), {budget({{"cells", 0.004}, {"mesh", mesh}})}, tolerance,
+                                 {.structure = 200.0, .curves = 1.0}, left);
+    EXPECT_TRUE(step.has_value()) << mesh;
+    return step && step->scene.settings.patches[0].n_points != blade().settings.patches[0].n_points;
+  };
+  for (double mesh = 0.08; mesh < 0.3; mesh *= 1.02) EXPECT_FALSE(moves_cells(mesh)) << mesh;
+  EXPECT_TRUE(moves_cells(0.0165));
+}
+
 // What nothing can be done about does not make others wait.
 TEST(Refinement, RoughIsWhatCanBeRefined) {
   std::string left;
