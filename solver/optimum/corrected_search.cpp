@@ -160,15 +160,16 @@ class CorrectedPeakSearch {
     const double same = 1.0 + options_.amplitude_tolerance;
     const double limit = same * values().at(lowest_value()).highest.amplitude;
     double best = lowest_value();
-    std::optional<double> proved;
+    std::optional<double> traced;
     for (const auto& [at, value] : values()) {
       if (value.highest.amplitude > limit) continue;
       if (higher_neighbour(at) < higher_neighbour(best)) best = at;
-      const bool lower = !proved || higher_neighbour(at) < higher_neighbour(*proved);
-      if (value.top && lower) proved = at;
+      const bool is_whole = value.top && value.highest.whole_curve;
+      const bool lower = !traced || higher_neighbour(at) < higher_neighbour(*traced);
+      if (is_whole && lower) traced = at;
     }
-    const bool is_enough = proved && higher_neighbour(*proved) <= same * higher_neighbour(best);
-    return is_enough ? *proved : best;
+    const bool is_enough = traced && higher_neighbour(*traced) <= same * higher_neighbour(best);
+    return is_enough ? *traced : best;
   }
 
   /// Its amplitude; infinite where one is missing.
