@@ -17,6 +17,11 @@ namespace {
 constexpr double rounding_share = 1e-8;
 constexpr int max_cuts =
     90;  // bisection alone needs 44 for a share of 1e-13, and a third are bisections
+// Next to a kink where slip in a plane begins Newton's method may take hundreds of evaluations:
+// after so many, eight digits of the place are enough, and after more some.
+constexpr long dear_search = 200;
+constexpr long vain_search = 1000;
+constexpr double vain_share = 1e-5;
 // Where the branch is smooth three are enough; at a kink more would not shorten the bracket.
 constexpr int n_cubics = 4;
 // Of the steeper end: a slope that is this small and does not fall any more is rounding.
@@ -88,11 +93,14 @@ using Places = std::map<double, StepPoint>;
 
 class Segment {
  public:
+  /// @param until   share of the step that is searched.
   /// @param places  borrowed: of the same step, looked up first and added to.
-  Segment(BranchWalker& walker, HarmonicBalance& balance, PointMark kind, Places& places)
+  Segment(BranchWalker& walker, HarmonicBalance& balance, PointMark kind, double until,
+          Places& places)
       : walker_(walker),
         balance_(balance),
         kind_(kind),
+        until_(until),
         places_(places),
         most_splits_(walker.is_sampled() ? max_splits_of_sampled : max_splits),
         hiding_share_(walker.is_sampled() ? share_of_smooth_turn : 1.0),
@@ -110,9 +118,12 @@ class Segment {
     Node end = node({1.0, walker_.now()});
     if (walker_.is_at_tip()) {
       take_tip(begin, end);
-    } else {
-      search(begin, end, 0);
+      return std::move(found_);
     }
+    if (until_ < 1.0) {
+      if (auto last = between(begin, end, until_)) end = std::move(*last);
+    }
+    search(begin, end, 0);
     return std::move(found_);
   }
 
@@ -335,6 +346,11 @@ class Segment {
     return std::nullopt;
   }
 
+  [[nodiscard]] static bool is_enough(long evaluations, double width) {
+    return (evaluations > dear_search && width < rounding_share) ||
+           (evaluations > vain_search && width < vain_share);
+  }
+
   /// By cubics where the branch is smooth, which leave little to do; then regula falsi (Illinois)
   /// with a bisection after every two steps, so that a jump is found as well. Ends where the slope
   /// is rounding, or the bracket.
@@ -345,9 +361,13 @@ class Segment {
     const double steeper = std::max(std::abs(low_weight), std::abs(high_weight));
     const double enough = 0.1 * walker_.resolution() * steeper;
     const double level = level_share * steeper;
+    const long evaluations = walker_.evaluations();
     double least = std::numeric_limits<double>::infinity();
     std::optional<SpecialPoint> best;
     for (int i = 0; i < max_cuts && high.at.share - low.at.share > walker_.resolution(); ++i) {
+      if (is_enough(walker_.evaluations() - evaluations, high.at.share - low.at.share)) {
+        return unsolved(low, high);
+      }
       const double cut = low_weight / (low_weight - high_weight);
       const double cubic = i < n_cubics ? CubicSlope(low, high).zero() : 0.0;
       const bool by_cubic = cubic > 0.0 && cubic < 1.0;
@@ -382,6 +402,7 @@ class Segment {
   BranchWalker& walker_;  ///< counts what the search costs
   HarmonicBalance& balance_;
   PointMark kind_;
+  double until_;
   Places& places_;
   int most_splits_;
   double hiding_share_;  ///< of a turn: slopes as small may change their sign
@@ -396,17 +417,18 @@ class Segment {
 
 std::vector<SpecialPoint> peaks_between(BranchWalker& walker, HarmonicBalance& balance) {
   Places places;
-  return Segment(walker, balance, PointMark::peak, places).search();
+  return Segment(walker, balance, PointMark::peak, 1.0, places).search();
 }
 
-std::vector<SpecialPoint> special_points(BranchWalker& walker, HarmonicBalance& balance) {
+std::vector<SpecialPoint> special_points(BranchWalker& walker, HarmonicBalance& balance,
+                                         double until) {
   Places places;
-  Segment peaks(walker, balance, PointMark::peak, places);
+  Segment peaks(walker, balance, PointMark::peak, until, places);
   std::vector<SpecialPoint> found = peaks.search();
   if (!found.empty()) {
     for (SpecialPoint& valley : peaks.valleys()) found.push_back(std::move(valley));
   }
-  for (SpecialPoint& fold : Segment(walker, balance, PointMark::fold, places).search()) {
+  for (SpecialPoint& fold : Segment(walker, balance, PointMark::fold, until, places).search()) {
     found.push_back(std::move(fold));
   }
   std::sort(found.begin(), found.end(),

@@ -116,7 +116,7 @@ void CurveTracer::note_unsolved(double frequency, PointMark mark) {
 }
 
 bool CurveTracer::add_specials(BranchWalker& walker, double share_of_segment) {
-  const std::vector<SpecialPoint> found = special_points(walker, *balance_);
+  const std::vector<SpecialPoint> found = special_points(walker, *balance_, share_of_segment);
   take_stock(walker);
   for (const SpecialPoint& special : found) {
     if (!(special.share < share_of_segment)) continue;

@@ -221,6 +221,10 @@ TEST(SpecialPoints, AChangeOfSignThatCannotBeSolvedForIsGivenAndSaidSo) {
     broken = false;
     ASSERT_TRUE(walker.advance());
     const auto solved = special_points(walker, balance);
+    // Of half the step: what lies in it.
+    EXPECT_EQ(
+        std::ssize(special_points(walker, balance, 0.5)),
+        std::ranges::count_if(solved, [](const SpecialPoint& one) { return one.share < 0.5; }));
     broken = true;
     const auto unsolved = special_points(walker, balance);
     ASSERT_EQ(unsolved.size(), solved.size());
