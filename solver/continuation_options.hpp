@@ -41,6 +41,9 @@ struct ContinuationOptions {
   bool refuse_swerves = true;
   /// Whether a walk that was led back goes on beyond the place where that happened.
   bool leave_loops = false;
+  /// Whether branches beside a curve are followed no further than the errors of sampled forces lead
+  /// (sampled_walk.hpp): where what is found is looked for again with forces that have none.
+  bool leave_sampled_walks = false;
   /// Solutions whose proof fails are no rows (curve/certificate.hpp). False: of curves that only a
   /// search reads.
   bool require_proof = true;

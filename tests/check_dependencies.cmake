@@ -23,7 +23,7 @@ set(face_fem attachment bending_error blas_threads given_matrices machine_memory
   petsc_error rank_messages ranks rotation slepc_session solver_kind stress_jumps surface_load)
 set(face_contact bracketed_root contact_effects contact_force contact_map contact_state contact_states dense harmonics modal_force
   motion_coordinates patch phase point_cycle spare_cores transient_force trigonometric_basis)
-set(face_solver continuation continuation_options diagnosis point_shift optimum response_curve richer_peak scene time_integration
+set(face_solver continuation continuation_options diagnosis point_shift optimum response_curve richer_peak sampled_walk scene time_integration
   time_options)
 set(face_pipelines study commands)
 

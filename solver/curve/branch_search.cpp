@@ -17,6 +17,7 @@
 #include "solver/curve/curve_tracer.hpp"
 #include "solver/curve/solved_point.hpp"
 #include "solver/enrichment/curve_harmonics.hpp"
+#include "solver/sampled_walk.hpp"
 
 namespace microslip::solver {
 namespace {
@@ -187,11 +188,10 @@ class Search {
   }
 
   void trace_beside() {
-    const PointObserver goes_on = [&](const ResponsePoint& /*point*/) { return !is_stopped(); };
     for (const ContinuationOptions& range :
          ranges_from_beside(scene_, options_, known_harmonics())) {
       if (is_stopped()) return;
-      beside_.push_back({range, CurveTracer(scene_, range, goes_on).run()});
+      beside_.push_back({range, CurveTracer(scene_, range, observer()).run()});
       curve_.iterations += beside_.back().curve.iterations;
       curve_.contact_evaluations += beside_.back().curve.contact_evaluations;
     }
@@ -207,7 +207,16 @@ class Search {
     }
   }
 
-  [[nodiscard]] bool is_stopped() const { return options_.stop && options_.stop(); }
+  /// Of one walk.
+  [[nodiscard]] PointObserver observer() const {
+    return [this, walk = SampledWalk()](const ResponsePoint& point) mutable {
+      walk.add(point);
+      const bool leaves = options_.leave_sampled_walks && walk.is_led_by_errors();
+      return !leaves && !is_stopped();
+    };
+  }
+
+  [[nodiscard]] bool is_stopped() const { return left_ || (options_.stop && options_.stop()); }
 
   [[nodiscard]] bool is_point() const { return options_.frequency_begin == options_.frequency_end; }
 
@@ -400,20 +409,17 @@ class Search {
 
   /// Both ways from a solution to the ends of its branch.
   [[nodiscard]] DetachedBranch followed(NewtonResult start, const ContinuationOptions& options) {
-    const PointObserver goes_on = [&](const ResponsePoint& /*point*/) {
-      return !options.stop || !options.stop();
-    };
     ContinuationOptions backward = options;
     std::swap(backward.frequency_begin, backward.frequency_end);
     const ResponseCurve ahead =
-        CurveTracer(scene_, options, goes_on).follow(start, balance_->set());
+        CurveTracer(scene_, options, observer()).follow(start, balance_->set());
     count_work(ahead);
     note_end(ahead);
     DetachedBranch branch;
     branch.closed = ahead.diagnosis == Diagnosis::loop;
     if (!branch.closed) {
       const ResponseCurve back =
-          CurveTracer(scene_, backward, goes_on).follow(std::move(start), balance_->set());
+          CurveTracer(scene_, backward, observer()).follow(std::move(start), balance_->set());
       count_work(back);
       note_end(back);
       if (!back.points.empty()) {
@@ -423,6 +429,7 @@ class Search {
     const std::size_t start_at = branch.points.size();
     branch.points.insert(branch.points.end(), ahead.points.begin(), ahead.points.end());
     mark_peak_at(start_at, branch);
+    left_ = options_.leave_sampled_walks && is_led_by_errors(branch.points);
     return branch;
   }
 
@@ -476,6 +483,7 @@ class Search {
   const ContinuationOptions& options_;
   ResponseCurve& curve_;
   std::unique_ptr<HarmonicBalance> balance_;
+  bool left_ = false;  ///< a branch, for the errors of forces: all is looked for again without
   struct Cut {
     double frequency;
     Diagnosis diagnosis;

@@ -1,7 +1,10 @@
 // A curve whose forces no number of instants gives as closely as asked for reaches its end, and
-// tells what they err by.
+// tells what they err by; one that their errors turn more often than it turns is traced again with
+// located events.
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -10,6 +13,7 @@
 #include "pipelines/effects/contact_effects.hpp"
 #include "pipelines/model/contact_stage.hpp"
 #include "pipelines/response/response_stage.hpp"
+#include "pipelines/response/solver_scenes.hpp"
 #include "pipelines/scene/scene_file.hpp"
 #include "tests/support/floating_point_traps.hpp"
 
@@ -47,6 +51,69 @@ harmonics = 3
                      points);
 }
 
+/// Two modes; twelve points that strike, whose friction falls with the speed.
+std::string striking_scene() {
+  std::string points;
+  for (int i = 0; i < 12; ++i) {
+    points += fmt::format(
+        "{{ weight = 1.0, tangential_stiffness = 4e5, normal_stiffness = 1e6, "
+        "friction_coefficient = 0.3, preload = 2, phi_u_1 = {}, phi_v_1 = {}, phi_u_2 = {}, "
+        "phi_v_2 = {} }},\n",
+        0.3 * (0.5 + 0.05 * i), 0.3 * (0.3 + 0.06 * i), 0.3 * std::cos(0.2 * i),
+        0.3 * std::sin(0.25 * i));
+  }
+  return fmt::format(R"toml([model]
+kind = "modal"
+[modal]
+frequency = [100, 260]
+damping_ratio = 0.001
+force_sine = [20, 5]
+force_cosine = [0, 0]
+output = [1, 0.5]
+points = [
+{}]
+[contact]
+friction_law = {{ law = "hyperbolic", static = 0.3, rate = 10.0 }}
+[response]
+frequency = [61, 64]
+harmonics = 3
+)toml",
+                     points);
+}
+
+CurveResult curve_of(const ReducedModel& model, const SceneDescription& scene) {
+  return trace_curve(model, scene, curve_requests(scene).front(), [](const auto&) { return true; });
+}
+
+std::vector<double> folds_of(const solver::ResponseCurve& curve) {
+  std::vector<double> folds;
+  for (const solver::ResponsePoint& point : curve.points) {
+    if (point.mark == solver::PointMark::fold) folds.push_back(point.frequency);
+  }
+  return folds;
+}
+
+TEST(SampledCurve, FoldsThatErrorsOfForcesMakeAreNone) {
+  const SceneDescription scene = parse_scene(striking_scene(), "scene.toml", "/nowhere", {});
+  ReducedModel model = reduced_model(scene);
+  model.effects = contact_effects(model, scene);
+  ASSERT_TRUE(contact::is_sampled(model.patches, model.effects));
+  // As sampled forces have it: six folds, two of which located events know.
+  const solver::ResponseCurve sampled =
+      solver::trace_response(balanced_scene(model, 1.0, continuation_options(scene, model)),
+                             continuation_options(scene, model));
+  EXPECT_GT(folds_of(sampled).size(), 2);
+
+  const CurveResult result = curve_of(model, scene);
+  EXPECT_TRUE(result.curve.complete) << result.curve.message;
+  EXPECT_TRUE(std::ranges::any_of(result.curve.log, [](const solver::SolverEvent& event) {
+    return event.remedy == solver::Remedy::located_events;
+  }));
+  model.effects.located = true;
+  EXPECT_EQ(folds_of(result.curve), folds_of(curve_of(model, scene).curve));
+  EXPECT_EQ(folds_of(result.curve).size(), 2);
+}
+
 TEST(SampledCurve, ReachesItsEndWithMostInstants) {
   const SceneDescription scene =
       parse_scene(scene_in_a_plane(), "scene.toml", "/nowhere", {"response.harmonics=3"});
@@ -55,8 +122,7 @@ TEST(SampledCurve, ReachesItsEndWithMostInstants) {
   ASSERT_TRUE(contact::is_sampled(model.patches, model.effects));
   model.effects.force_tolerance = 1e-9;
   EXPECT_EQ(contact::instants_of(model.patches, model.effects), contact::most_instants);
-  const CurveResult result =
-      trace_curve(model, scene, curve_requests(scene).front(), [](const auto&) { return true; });
+  const CurveResult result = curve_of(model, scene);
   EXPECT_TRUE(result.curve.complete) << result.curve.message;
   EXPECT_NE(result.curve.message.find("contact forces sampled 2048 times a period err by some"),
             std::string::npos)
