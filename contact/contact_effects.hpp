@@ -13,6 +13,7 @@ struct ContactEffects {
   bool mean_coupling = true;
   bool second_direction = false;  ///< friction along r beside p
   bool located = false;           ///< events are located of points that would else be sampled
+  bool sampled = false;           ///< points are sampled that would else be located
   /// Of points that are sampled: what their force may err by, and how often the instants that
   /// usually do are doubled, or halved.
   double force_tolerance = 1e-3;

@@ -3,12 +3,15 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "contact/harmonics.hpp"
 
 namespace microslip::solver {
+
+struct Scene;
 
 struct ContinuationOptions {
   double frequency_begin = 0.0;  ///< [rad/s], > 0
@@ -56,6 +59,9 @@ struct ContinuationOptions {
   std::optional<contact::Harmonics> near_begin{};
   /// Starts per frequency of a search for detached branches (branch_search.hpp); 0: none.
   int search_starts = 0;
+  /// The same scene with forces that are cheaper and less exact, from whose solutions those of the
+  /// scene are then looked for; nullptr: its own are cheap.
+  std::shared_ptr<const Scene> search_scene{};
 };
 
 }  // namespace microslip::solver

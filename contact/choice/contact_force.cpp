@@ -49,6 +49,7 @@ Eigen::Index n_points(std::span<const Patch> patches) {
 }
 
 Method method_for(std::span<const Patch> patches, const ContactEffects& effects) {
+  if (effects.sampled) return Method::lanes;
   const Method method =
       contact::method_for(n_points(patches), are_plain(patches, effects), effects.n_harmonics);
   return method == Method::lanes && effects.located ? Method::point_methods : method;

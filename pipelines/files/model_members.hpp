@@ -15,9 +15,9 @@ using pipelines::Is;
 
 namespace contact {
 auto members(Is<ContactEffects> auto& value) {
-  auto& [n_harmonics, normal_motion, mean_coupling, second_direction, located, force_tolerance,
-         doublings, motion_ratio] = value;
-  return std::tie(n_harmonics, normal_motion, mean_coupling, second_direction, located,
+  auto& [n_harmonics, normal_motion, mean_coupling, second_direction, located, sampled,
+         force_tolerance, doublings, motion_ratio] = value;
+  return std::tie(n_harmonics, normal_motion, mean_coupling, second_direction, located, sampled,
                   force_tolerance, doublings, motion_ratio);
 }
 auto members(Is<MotionCoordinates> auto& value) {

@@ -57,9 +57,10 @@ solver::ResponseCurve balanced_curve(const ReducedModel& model, const SceneDescr
     return sampled_curve(model, scene, load, options, observe);
   }
   const solver::Scene problem = balanced_scene(model, load, options);
+  const solver::ContinuationOptions searching = with_search_scene(options, model, load);
   return options.frequency_begin == options.frequency_end
-             ? solver::solve_at_frequency(problem, options.frequency_begin, options)
-             : solver::trace_response(problem, options, observe);
+             ? solver::solve_at_frequency(problem, options.frequency_begin, searching)
+             : solver::trace_response(problem, searching, observe);
 }
 
 /// What a curve may take: where a run has a budget no more than leaves some of it for the others.

@@ -209,7 +209,7 @@ Tracing checked_tracing(const ReducedModel& model, double load,
     result.noisy = sampled && has_left_out(result.curve);
     return result;
   }
-  solver::ContinuationOptions leaving = options;
+  solver::ContinuationOptions leaving = with_search_scene(options, model, load);
   leaving.leave_sampled_walks = sampled && can_be_located(model);
   result.curve = solver::trace_response(
       balanced_scene(model, load, options), leaving, [&](const solver::ResponsePoint& point) {

@@ -101,6 +101,17 @@ solver::Scene balanced_scene(const ReducedModel& model, double load,
   return problem;
 }
 
+solver::ContinuationOptions with_search_scene(solver::ContinuationOptions options,
+                                              const ReducedModel& model, double load) {
+  const bool dear =
+      model.effects.second_direction && !contact::is_sampled(model.patches, model.effects);
+  if (!dear || options.search_starts == 0) return options;
+  ReducedModel sampled = model;
+  sampled.effects.sampled = true;
+  options.search_scene = std::make_shared<solver::Scene>(solver_scene(sampled, load));
+  return options;
+}
+
 Eigen::VectorXd slowing_of(const ReducedModel& model, const ResponseDescription& response) {
   return slowing(
       model, contact::two_pi * std::max(response.frequency_begin_hz, response.frequency_end_hz));

@@ -19,6 +19,11 @@ namespace microslip::pipelines {
 [[nodiscard]] solver::Scene balanced_scene(const ReducedModel& model, double load,
                                            const solver::ContinuationOptions& options);
 
+/// The options with the scene in which a search beside the curve tries its starts, where forces are
+/// located in a plane: sampled in time, which is a tenth as dear.
+[[nodiscard]] solver::ContinuationOptions with_search_scene(solver::ContinuationOptions options,
+                                                            const ReducedModel& model, double load);
+
 /// For the free and the stuck limit, which know no preload: no moment tilts, rough surfaces are in
 /// full contact.
 [[nodiscard]] solver::Scene limit_scene(ReducedModel model);

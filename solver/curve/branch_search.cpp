@@ -29,6 +29,7 @@ constexpr double beside_fold = 1e-3;
 constexpr double same_frequency = 1e-4;  // closer to another by this share of it, and of the range:
                                          // what there is beside it shows from there
 constexpr int most_iterations = 60;
+constexpr double cheap_tolerance = 1e-8;  // of what is solved closer, or with closer forces
 constexpr int most_halvings = 6;
 constexpr double longest_step = 3.0;  // of the amplitude: deflation scales steps without bound
 constexpr double unbounded = 1e6;     // of a linear response, over the amplitude
@@ -154,15 +155,36 @@ class Search {
     if (is_point()) {
       for (const Eigen::VectorXd& own : std::vector(known)) keep_crossings(own, frequency, known);
     }
+    if (options_.search_scene) {
+      cheap_ = std::make_unique<HarmonicBalance>(*options_.search_scene, balance_->set());
+    }
+    std::vector<Eigen::VectorXd> divided = cheaply(known, frequency);
     for (int i = 0; i < options_.search_starts; ++i) {
       if (curve_.detached.size() >= most_branches || is_stopped()) return;
       ++curve_.n_starts;
       const std::optional<Eigen::VectorXd> found =
-          deflated(start(i, frequency, known), frequency, known);
+          deflated(start(i, frequency, known), frequency, divided);
       if (!found) continue;
       const auto x = keep_new(*found, frequency, known);
       if (x && is_point()) keep_crossings(*x, frequency, known);
+      if (x) divided = cheaply(known, frequency);
+      if (cheap_ && !near(*found, divided)) divided.push_back(*found);  // once is enough
     }
+  }
+
+  /// In which starts are tried.
+  [[nodiscard]] HarmonicBalance& tried() { return cheap_ ? *cheap_ : *balance_; }
+
+  /// The known solutions as cheaper forces have them.
+  [[nodiscard]] std::vector<Eigen::VectorXd> cheaply(std::vector<Eigen::VectorXd> known,
+                                                     double frequency) {
+    if (!cheap_) return known;
+    for (Eigen::VectorXd& x : known) {
+      NewtonResult solution = solve_at(*cheap_, x, frequency, {.tolerance = cheap_tolerance});
+      count(solution.iterations, solution.evaluations);
+      if (solution.converged) x = std::move(solution.point.x);
+    }
+    return known;
   }
 
   /// All that the branches known have: solutions are compared in the same unknowns.
@@ -357,19 +379,19 @@ class Search {
     if (known.empty()) return std::nullopt;
     double size = 0.0;
     for (const Eigen::VectorXd& other : known) size = std::max(size, other.norm());
-    if (size == 0.0) size = natural_scaling(*balance_, x, frequency).x;
-    const double scale = natural_scaling(*balance_, known.front(), frequency).residual;
+    if (size == 0.0) size = natural_scaling(tried(), x, frequency).x;
+    const double scale = natural_scaling(tried(), known.front(), frequency).residual;
     for (const Eigen::VectorXd& other : known) {
       if ((x - other).norm() < 1e-2 * size) x *= 1.1;  // m has no value at a known solution
     }
-    Eigen::VectorXd residual = balance_->residual(x, frequency).residual;
+    Eigen::VectorXd residual = tried().residual(x, frequency).residual;
     count(0, 1);
     std::vector<double> merits;
     for (int i = 0; i < most_iterations; ++i) {
       merits.push_back(merit(x, size, known, residual));
-      if (residual.norm() <= 1e-8 * scale) return x;
+      if (residual.norm() <= cheap_tolerance * scale) return x;
       if (is_stalled(merits)) return std::nullopt;
-      const BalanceEvaluation at = balance_->evaluate(x, frequency);
+      const BalanceEvaluation at = tried().evaluate(x, frequency);
       Eigen::VectorXd step = -solved(at.jacobian, at.residual);
       step /= 1.0 - logarithmic_gradient(x, size, known).dot(step);
       if (!step.allFinite()) return std::nullopt;
@@ -379,7 +401,7 @@ class Search {
       double length = 1.0;
       for (int k = 0; k <= most_halvings; ++k, length *= 0.5) {
         const Eigen::VectorXd next = x + length * step;
-        residual = balance_->residual(next, frequency).residual;
+        residual = tried().residual(next, frequency).residual;
         count(0, 1);
         // The last try is taken even if it rises: between regimes no length may do.
         if (merit(next, size, known, residual) < merits.back() || k == most_halvings) {
@@ -483,6 +505,7 @@ class Search {
   const ContinuationOptions& options_;
   ResponseCurve& curve_;
   std::unique_ptr<HarmonicBalance> balance_;
+  std::unique_ptr<HarmonicBalance> cheap_;  // with the scene of a search, if there is one
   bool left_ = false;  ///< a branch, for the errors of forces: all is looked for again without
   struct Cut {
     double frequency;

@@ -18,6 +18,9 @@
 /// point, and the branches of the known solutions are followed about the resonances near by: where
 /// they fold and come back is another solution. Nothing found proves nothing.
 ///
+/// Where forces are dear, starts are tried with cheaper ones (ContinuationOptions::search_scene),
+/// and what these find is solved for with those of the scene.
+///
 /// Source: the deflation operator of Farrell, Birkisson & Funke, SIAM J. Sci. Comput. 37 (2015)
 /// A2026, power 2, shift 1; starts and following are this project's.
 #pragma once

@@ -54,6 +54,24 @@ TEST(BranchSearch, FindsAnIsola) {
   for (const ResponsePoint& point : curve.points) EXPECT_LT(point.amplitude, 2.0);
 }
 
+// Hard: starts are tried in a scene that errs by a thousandth.
+// Met in: forces of points in a plane, which are ten times as dear as those that are sampled.
+// Right: what is found solves the equations of the scene itself, once.
+TEST(BranchSearch, StartsTriedInACheaperSceneFindTheSame) {
+  ContinuationOptions options = range(0.6, 1.4, 12);
+  options.search_scene = std::make_shared<const Scene>(tests::isola_scene(0.5005));
+  const ResponseCurve curve = trace_response(with_isola(), options);
+  ASSERT_TRUE(curve.complete) << curve.diagnosis;
+  ASSERT_EQ(curve.detached.size(), 1U);
+  EXPECT_TRUE(curve.detached[0].closed);
+  for (const ResponsePoint& point : curve.detached[0].points) {
+    const double square = point.amplitude * point.amplitude;
+    const double stiffness = 1.0 - point.frequency * point.frequency;
+    const double d = tests::HumpedDamping::damping(square);
+    EXPECT_NEAR((stiffness * stiffness + d * d) * square, 0.25, 1e-10);
+  }
+}
+
 // Row 50b. Hard: the free response is proved, and another solution has contact.
 // Met in: gaps.
 // Right: the proof says "a solution", the search finds the other.
