@@ -220,8 +220,8 @@ Tracing checked_tracing(const ReducedModel& model, double load,
   return result;
 }
 
-/// Gives a model as many doublings as the order of forces asks for; along a line located events,
-/// where they are as cheap as the most instants.
+/// Gives a model as many doublings as the order of forces asks for; located events, where they
+/// are as cheap or the walk was led by errors.
 /// @return what was done.
 std::vector<solver::Remedy> refined(ReducedModel& model, double error, bool noisy) {
   const double order = is_plain(model) ? 3.0 : 2.0;

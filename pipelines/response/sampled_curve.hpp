@@ -1,8 +1,8 @@
 /// @file
 /// Curves whose forces are sampled in time, with as many instants as their accuracy asks for. Half
 /// or twice as many tell what a force errs by at solved points; where that is more than the
-/// tolerance of the model, the curve is traced again with more of them, and where not even most are
-/// enough with every event located if that is cheap.
+/// tolerance of the model, the curve is traced again with more of them; with every event located
+/// where that is as cheap, and where the errors lead the walk along a line or of few points.
 #pragma once
 
 #include "pipelines/description/scene_description.hpp"

@@ -346,6 +346,7 @@ class Segment {
     return std::nullopt;
   }
 
+  /// Of what a bracket was searched with, at its width.
   [[nodiscard]] static bool is_enough(long evaluations, double width) {
     return (evaluations > dear_search && width < rounding_share) ||
            (evaluations > vain_search && width < vain_share);

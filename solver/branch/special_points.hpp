@@ -35,7 +35,8 @@ struct SpecialPoint {
 
 /// Peaks and folds, and where a peak and a valley lie between the two points, the valley too,
 /// unmarked: a peak is not lower than what comes before and after it. In the order of the branch.
-/// Their frequencies carry rounding error only, some 1e-13 relative.
+/// Their frequencies carry rounding error only, some 1e-13 relative; at a kink at which Newton's
+/// method takes hundreds of evaluations, eight digits of the step.
 /// @param until  share of the step that is searched.
 [[nodiscard]] std::vector<SpecialPoint> special_points(BranchWalker& walker,
                                                        HarmonicBalance& balance,
