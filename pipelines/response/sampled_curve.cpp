@@ -29,8 +29,6 @@ bool is_plain(const ReducedModel& model) {
   return contact::are_plain(model.patches, model.effects);
 }
 
-constexpr Eigen::Index few_points = 32;
-
 Eigen::Index n_points(const ReducedModel& model) {
   Eigen::Index n = 0;
   for (const contact::Patch& patch : model.patches) n += patch.cells.size();
@@ -41,15 +39,17 @@ Eigen::Index n_points(const ReducedModel& model) {
 /// as 256, which the walk of a few points led by the errors of these is as well: of 12, 24, 48 and
 /// 96 points that strike it took 8, 21, 19 and 12 s, with located events 26, 39, 83 and above 150.
 bool can_be_located(const ReducedModel& model) {
-  return !model.effects.second_direction || n_points(model) <= few_points;
+  constexpr Eigen::Index most_points = 32;
+  return !model.effects.second_direction || n_points(model) <= most_points;
 }
 
 /// Whether close folds and steps by the hundred are signs that errors lead the walk: those of many
-/// points are less than such folds are apart. Of 60 points that strike two to ten folds of 24 are
-/// none, the peaks within 2e-4; blades of 63 to 570 have those of located events, some within 1e-5,
-/// for a sixth of the time.
+/// points are less than such folds are apart. Of 60 plain points that strike two to ten folds of 24
+/// are none, the peaks within 2e-4; blades of 63 to 570 have those of located events, some within
+/// 1e-5, for a sixth of the time. Of 40 whose friction falls with the speed eight of ten are none.
 bool can_be_led(const ReducedModel& model) {
-  return can_be_located(model) && n_points(model) <= few_points;
+  const Eigen::Index most_points = is_plain(model) ? 32 : 128;
+  return can_be_located(model) && n_points(model) <= most_points;
 }
 
 /// From which on located events are as cheap.
