@@ -309,8 +309,11 @@ CurveHarmonics choose_harmonics(const Scene& scene, const ContinuationOptions& r
         chosen.highest = found.richest;
         chosen.is_peak = found.peak->place == PeakPlace::peak;
       }
-      is_lost = is_lost || !found.peak;
       count(chosen, choice.work());
+      if (found.peak) continue;
+      is_lost = true;
+      const bool goes_on = traces < most_traces && stepping_stone(set, of_now, chosen.set);
+      if (goes_on) break;  // the other places are asked there
     }
     if (!is_lost || traces == most_traces || is_stopped(range)) {
       if (now == &traced && of_now == chosen.set) chosen.traced = std::move(traced);
