@@ -235,10 +235,13 @@ void PeakHarmonicsChoice::try_first_ones(PeakHarmonics& result,
   const auto first = [&](int highest) {
     return HarmonicSet(highest).united(least.orders()).united(least_.orders());
   };
+  std::optional<HarmonicSet> failed;  // by what it has to have a set may be that of fewer orders
   const auto do_first = [&](int highest) {
     const HarmonicSet fewer = first(highest);
     if (fewer == result.set) return true;
+    if (fewer == failed) return false;
     std::optional<PeakHarmonics> there = without(rich, fewer);
+    if (!there) failed = fewer;
     if (there) result = std::move(*there);
     return there.has_value();
   };
