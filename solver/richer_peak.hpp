@@ -29,17 +29,21 @@ struct RicherPeak {
   double seconds = 0.0;            ///< that solving it took
   double dissipated_energy = 0.0;  ///< by friction in a period, with more harmonics [J]
   std::vector<int> beyond{};       ///< harmonics above `highest` that resonate at the peak as well
+  double left_out = 0.0;           ///< |δA| / A of the next ones, by one step; 0: not asked
 };
 
-/// @param scene    the same with a contact that takes `highest` harmonics.
+/// @param scene    the same with a contact that takes `highest` harmonics, and `next`.
 /// @param range    of the curve, harmonics given. Up to its `highest_resonance` harmonics beyond
 ///                 `highest` are solved for as well where they meet a mode at the peak.
 /// @param curve    its highest peak, or end of the range, is taken.
 /// @param highest  harmonic, ≥ 5 more than those of the curve.
+/// @param next     those up to it are told by one step, and solved for as well where that moves the
+///                 peak by more than 1 %: then it is the highest of the result.
 /// @return empty: the curve has no peak, and no end of the range, to begin with.
 [[nodiscard]] std::optional<RicherPeak> richer_peak(const Scene& scene,
                                                     const ContinuationOptions& range,
-                                                    const ResponseCurve& curve, int highest);
+                                                    const ResponseCurve& curve, int highest,
+                                                    int next = 0);
 
 /// Harmonics beyond those of a curve that may resonate with a mode somewhere along it, up to the
 /// highest: with them it may have another peak there, higher than its own.

@@ -219,6 +219,16 @@ void add_marks(CurveBudget& budget, const ReducedModel& model, const RicherModel
                          ErrorKind::estimated, seconds});
 }
 
+/// From the peak to that with more harmonics, and away from it by what these leave out.
+GoalEffects of_more_harmonics(const CurveBudget& budget, const solver::ResponsePoint& peak,
+                              const GoalEffects& with_more, double left_out) {
+  GoalEffects change = changes(budget, peak, with_more);
+  const GoalEffects beyond = of_amplitude_alone(budget, left_out);
+  change.amplitude += std::copysign(beyond.amplitude, change.amplitude);
+  change.energy += std::copysign(beyond.energy, change.energy);
+  return change;
+}
+
 /// Given harmonics have been solved with more; of chosen ones the peak knows what is left out.
 /// @param is_told  the curve was solved with chosen harmonics,
 ///                 or more of them are known to do nothing.
@@ -230,12 +240,11 @@ void add_harmonics(CurveBudget& budget, const CurveResult& result,
   if (!result.richer && is_open) {
     budget.unknown.emplace_back("harmonics");
   } else if (!result.richer && settled.amplitude > 0.0) {
-    GoalEffects change =
-        changes(budget, peak, {settled.amplitude, settled.frequency, settled.dissipated_energy});
-    const GoalEffects beyond = of_amplitude_alone(budget, settled.left_out);
-    change.amplitude += std::copysign(beyond.amplitude, change.amplitude);
-    change.energy += std::copysign(beyond.energy, change.energy);
-    add_rows(budget, result.name, "harmonics", change, ErrorKind::solved, 0.0);
+    add_rows(budget, result.name, "harmonics",
+             of_more_harmonics(budget, peak,
+                               {settled.amplitude, settled.frequency, settled.dissipated_energy},
+                               settled.left_out),
+             ErrorKind::solved, 0.0);
   } else if (!result.richer && !is_told) {
     budget.unknown.emplace_back("harmonics");
   } else if (!result.richer && !is_left_out_known(result.curve, peak.harmonics_left_out)) {
@@ -244,11 +253,12 @@ void add_harmonics(CurveBudget& budget, const CurveResult& result,
     add_rows(budget, result.name, "harmonics", of_amplitude_alone(budget, peak.harmonics_left_out),
              ErrorKind::estimated, 0.0);
   } else if (result.richer->change) {
+    const solver::RicherPeak& richer = *result.richer;
     add_rows(budget, result.name, "harmonics",
-             changes(budget, peak,
-                     {result.richer->amplitude, result.richer->frequency,
-                      result.richer->dissipated_energy}),
-             ErrorKind::solved, result.richer->seconds);
+             of_more_harmonics(budget, peak,
+                               {richer.amplitude, richer.frequency, richer.dissipated_energy},
+                               richer.left_out),
+             ErrorKind::solved, richer.seconds);
   } else {
     budget.unknown.emplace_back("harmonics");
   }

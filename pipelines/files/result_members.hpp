@@ -61,8 +61,8 @@ auto members(Is<PointShift> auto& value) {
   return std::tie(frequency, amplitude);
 }
 auto members(Is<RicherPeak> auto& value) {
-  auto& [frequency, amplitude, change, highest, seconds, energy, beyond] = value;
-  return std::tie(frequency, amplitude, change, highest, seconds, energy, beyond);
+  auto& [frequency, amplitude, change, highest, seconds, energy, beyond, left_out] = value;
+  return std::tie(frequency, amplitude, change, highest, seconds, energy, beyond, left_out);
 }
 auto members(Is<PeakOfParameter> auto& value) {
   auto& [parameter, frequency, amplitude, whole_curve, place, detached] = value;

@@ -15,9 +15,14 @@
 #include "pipelines/system/interrupt.hpp"
 
 namespace microslip::pipelines {
+namespace {
+
+constexpr int most_harmonics = 99;  // of a scene
+
+}  // namespace
+
 int harmonics_to_check(const ReducedModel& model, const SceneDescription& scene) {
   const HarmonicSettings& harmonics = scene.settings.harmonics;
-  constexpr int most_harmonics = 99;  // of a scene
   const bool is_asked = harmonics.checked && scene.accuracy.error_budget;
   if (harmonics.chosen() || !is_asked || model.patches.empty()) return 0;
   const int highest = std::min(harmonics.highest + harmonics_of_a_check, most_harmonics);
@@ -100,11 +105,12 @@ void check_harmonics(ReducedModel model, const SceneDescription& scene, double l
   if (highest == 0 || !curve.certificate.empty() || curve.points.empty()) return;
   if (curve.diagnosis == solver::Diagnosis::interrupted || interrupt_requested() || cut_short())
     return;
-  model.effects.n_harmonics = highest;
+  const int next = std::min(highest + harmonics_of_a_check, most_harmonics);
+  model.effects.n_harmonics = next;
   model = model_of(std::move(model), curve);
   solver::ContinuationOptions options = continuation_options(scene, model);
   options.stop = [&stop, others = options.stop] { return stop() || others(); };
-  result.richer = solver::richer_peak(solver_scene(model, load), options, curve, highest);
+  result.richer = solver::richer_peak(solver_scene(model, load), options, curve, highest, next);
   const solver::ContinuationOptions asked = options;
   const bool missed = result.richer && !result.richer->change;
   if (missed && options.frequency_begin != options.frequency_end) {

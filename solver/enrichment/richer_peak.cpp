@@ -184,10 +184,47 @@ std::optional<LocalPeak> carried_beyond(const Origin& origin, const LocalPeak& p
   return found;
 }
 
+/// Those that the set lacks.
+HarmonicSet with_next(const HarmonicSet& all, int next) {
+  return next < 1 ? all : all.united(HarmonicSet(next).orders());
+}
+
+/// |δA| / A of harmonics that a peak lacks, by one step. Their sizes added up are three times what
+/// solving for them tells, their sum may hide them: the root of their squares does not.
+double left_out_of(const Scene& scene, const LocalPeak& peak, const HarmonicSet& all,
+                   const HarmonicSet& more) {
+  const HarmonicBalance coarse(scene, all);
+  HarmonicBalance richer(scene, more);
+  double sum = 0.0;
+  double squares = 0.0;
+  for (const RicherShare& share : richer_shares(richer, embedded(peak, coarse, richer))) {
+    if (share.order == 0 || all.contains(share.order)) continue;
+    sum += share.amplitude;
+    squares += share.amplitude * share.amplitude;
+  }
+  return std::min(std::max(std::abs(sum), std::sqrt(squares)), all_left_out);
+}
+
+/// The peak with the next harmonics, where those are seen.
+void go_on(const Origin& origin, int next, HarmonicSet& all, LocalPeak& found, RicherPeak& result,
+           PeakWork& work) {
+  constexpr double worth_solving = 0.01;  // of the amplitude
+  HarmonicSet more = with_next(all, next);
+  if (more == all) return;
+  result.left_out = left_out_of(origin.scene, found, all, more);
+  if (!(result.left_out > worth_solving)) return;
+  auto there = carried_peak(origin.scene, origin.range, found, all, more, work);
+  if (!there || there->amplitude < another_peak * found.amplitude) return;
+  result.left_out = 0.0;
+  result.highest = next;
+  found = std::move(*there);
+  all = std::move(more);
+}
+
 }  // namespace
 
 std::optional<RicherPeak> richer_peak(const Scene& scene, const ContinuationOptions& range,
-                                      const ResponseCurve& curve, int highest) {
+                                      const ResponseCurve& curve, int highest, int next) {
   if (curve.points.empty() || !scene.contact) return std::nullopt;
   HarmonicBalance coarse(scene, first_harmonics(scene, range));
   const std::optional<Top> top = solved_top(scene, coarse, range, curve);
@@ -208,6 +245,7 @@ std::optional<RicherPeak> richer_peak(const Scene& scene, const ContinuationOpti
     const HarmonicSet fewer = std::exchange(all, all.united(result.beyond));
     found = carried_beyond(origin, *found, fewer, all, work);
   }
+  if (found) go_on(origin, next, all, *found, result, work);
   result.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   if (!found || found->amplitude < another_peak * top->point.amplitude) return result;
   result.frequency = found->point.parameter;
