@@ -149,8 +149,9 @@ def legend_of_marks(figure: Figure, run: Run) -> None:
                            Line2D([], [], marker="D", markersize=4, linestyle="", markerfacecolor="white", label="fold", **grey)]
     highest = sorted({richer[0] for richer in (richer_peak(curve) for curve, _ in run.curves) if richer})
     if highest:
+        harmonics = " or ".join(str(number) for number in highest)
         kinds.append(Line2D([], [], marker="*", markersize=7, linestyle="", markerfacecolor="white",
-                            label=f"peak with {highest[-1]} harmonics", **grey))
+                            label=f"peak with {harmonics} harmonics", **grey))
     if any(curve.get("bar") for curve, _ in run.curves):
         kinds.append(Line2D([], [], linewidth=0.8, marker="+", markersize=8, label="error of the peak", color="0.5"))
     if any(has_band(table) for _, table in run.curves):
